@@ -1,0 +1,20 @@
+# Flags shared by every target of this project: link to obscura_flags privately.
+add_library(obscura_flags INTERFACE)
+target_compile_options(obscura_flags INTERFACE -Wall -Wextra -Wno-psabi $<$<BOOL:${OBSCURA_WERROR}>:-Werror>)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  # The oldest processors served; Highway adds AVX2 and AVX-512 kernels, chosen at run time.
+  target_compile_options(obscura_flags INTERFACE -march=x86-64-v2)
+  target_compile_definitions(obscura_flags INTERFACE HWY_DISABLE_PCLMUL_AES)
+endif()
+if(OBSCURA_FORCE_SSE4)
+  target_compile_definitions(obscura_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
+else()
+  # Targets between those that matter cost compile time and win nothing.
+  target_compile_definitions(obscura_flags INTERFACE "HWY_DISABLED_TARGETS=(HWY_AVX3_DL|HWY_AVX3_ZEN4)")
+endif()
+# Contraction would make results depend on the compiler; the two others only free the vectoriser.
+target_compile_options(obscura_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+if(OBSCURA_SANITIZE)
+  add_compile_options(-fsanitize=${OBSCURA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${OBSCURA_SANITIZE})
+endif()

@@ -1,0 +1,18 @@
+#ifndef OBSCURA_OBSCURA_H_
+#define OBSCURA_OBSCURA_H_
+
+// Everything in one include.
+
+#include "obscura/camera.h"
+#include "obscura/depth_field.h"
+#include "obscura/estimator.h"
+#include "obscura/executor.h"
+#include "obscura/falloff.h"
+#include "obscura/line.h"
+#include "obscura/occluder.h"
+#include "obscura/outputs.h"
+#include "obscura/settings.h"
+#include "obscura/status.h"
+#include "obscura/views.h"
+
+#endif  // OBSCURA_OBSCURA_H_

@@ -1,0 +1,41 @@
+#ifndef OBSCURA_OUTPUTS_H_
+#define OBSCURA_OUTPUTS_H_
+
+#include <functional>
+
+#include "obscura/executor.h"
+#include "obscura/views.h"
+
+namespace obscura {
+
+// Where results go: caller-owned images of the visible size, each optional; an empty view is not
+// computed. A method that cannot give one that is asked for refuses (StatusCode::kUnsupported).
+// Background pixels get visibility 1, direction (0, 0, 1) and an open cone.
+struct Outputs {
+  // In [0, 1]; 1 is open. Cosine-weighted unless the method's page says otherwise.
+  ImageView<float> visibility{};
+  // Mean unoccluded direction over the hemisphere, uniform weights (bent normals and cones,
+  // section 3.1), as a unit vector in eye space.
+  VectorView<float> bent_normal{};
+  // Half-angle in radians, [0, pi/2], of the cone around bent_normal.
+  ImageView<float> cone_angle{};
+  // Uniform integral N (bent normals and cones, equation 2): length 1 and along the normal where
+  // all is open; carries ambient occlusion.
+  VectorView<float> uniform_integral{};
+  // Cosine-weighted integral of V w (n.w) / pi: along the normal with length 2/3 where all is open.
+  VectorView<float> cosine_integral{};
+  // Reference tracers: estimated standard error of visibility.
+  ImageView<float> standard_error{};
+};
+
+struct RunOptions {
+  // Null: the estimator's own threads (see Estimator::create).
+  Executor* executor = nullptr;
+  // Called now and then, from one thread at a time, with the share done in [0, 1]; returning false
+  // stops the run with StatusCode::kCancelled.
+  std::function<bool(double)> progress{};
+};
+
+}  // namespace obscura
+
+#endif  // OBSCURA_OUTPUTS_H_

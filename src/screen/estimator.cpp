@@ -1,0 +1,150 @@
+#include "obscura/estimator.h"
+
+#include <cmath>
+#include <new>
+
+#include "core/text.h"
+#include "screen/line/line.h"
+#include "screen/method.h"
+
+namespace obscura {
+namespace {
+
+Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  return make_line(s, w, h, m);
+}
+
+template <class T>
+Status check_output(const ImageView<T>& view, const DepthField& field, bool offered,
+                    const char* name) {
+  if (view.empty()) return {};
+  if (!offered) return unsupported(text("this method does not give ", name));
+  if (view.width == field.visible_width() && view.height == field.visible_height()) return {};
+  return invalid_argument(text("output ", name, " is ", view.width, "x", view.height,
+                               "; it must be ", field.visible_width(), "x", field.visible_height(),
+                               ", the visible size"));
+}
+
+Status check_outputs(const Outputs& o, const DepthField& field, const OutputKinds& kinds) {
+  Status status;
+  auto check = [&](const ImageView<float>& view, bool offered, const char* name) {
+    if (status.ok()) status = check_output(view, field, offered, name);
+  };
+  auto check_vector = [&](const VectorView<float>& v, bool offered, const char* name) {
+    if (v.empty()) return;
+    for (const auto* view : {&v.x, &v.y, &v.z}) {
+      if (status.ok() && view->empty()) {
+        status = invalid_argument(text("output ", name, " lacks a channel"));
+      }
+      check(*view, offered, name);
+    }
+  };
+  check(o.visibility, true, "visibility");
+  check_vector(o.bent_normal, kinds.bent_normal, "bent-normal");
+  check(o.cone_angle, kinds.cone_angle, "cone-angle");
+  check_vector(o.uniform_integral, kinds.uniform_integral, "uniform-integral");
+  check_vector(o.cosine_integral, kinds.cosine_integral, "cosine-integral");
+  check(o.standard_error, kinds.standard_error, "standard-error");
+  return status;
+}
+
+// Background pixels are not receivers: visibility 1, an open cone towards the camera.
+void fill_background(const view::Geometry& g, const Outputs& o, Executor& executor) {
+  executor.parallel_for(g.visible_height(), [&](int y, int) {
+    const float* depth = g.depth.row(y + g.guard_band.top) + g.guard_band.left;
+    auto set = [y](const ImageView<float>& view, int x, float value) {
+      if (!view.empty()) view(x, y) = value;
+    };
+    auto set_vector = [&](const VectorView<float>& v, int x, float length) {
+      set(v.x, x, 0);
+      set(v.y, x, 0);
+      set(v.z, x, length);
+    };
+    for (int x = 0; x < g.visible_width(); ++x) {
+      if (std::isfinite(depth[x])) continue;
+      set(o.visibility, x, 1);
+      set_vector(o.bent_normal, x, 1);
+      set(o.cone_angle, x, 1.57079633f);
+      set_vector(o.uniform_integral, x, 1);
+      set_vector(o.cosine_integral, x, 2.0f / 3);
+      set(o.standard_error, x, 0);
+    }
+  });
+}
+
+}  // namespace
+
+class EstimatorImpl {
+ public:
+  EstimatorImpl(std::unique_ptr<Method> method, int width, int height, int threads)
+      : method_(std::move(method)), width_(width), height_(height), threads_(threads) {}
+
+  Status run(const DepthField& field, const Outputs& outputs, const RunOptions& options) {
+    if (field.depth.width != width_ || field.depth.height != height_) {
+      return invalid_input(text("depth is ", field.depth.width, "x", field.depth.height,
+                                "; this estimator was created for ", width_, "x", height_));
+    }
+    Executor* executor = options.executor;
+    if (!executor) {
+      if (!own_executor_) own_executor_ = make_executor(threads_);
+      executor = own_executor_.get();
+    }
+    if (Status s = view::convert(field, method_->needs(), *executor, &geometry_); !s.ok()) return s;
+    if (Status s = check_outputs(outputs, field, method_->output_kinds()); !s.ok()) return s;
+    if (Status s = method_->run(geometry_, outputs, {*executor, options.progress}); !s.ok()) {
+      return s;
+    }
+    fill_background(geometry_, outputs, *executor);
+    return {};
+  }
+
+ private:
+  std::unique_ptr<Method> method_;
+  const int width_, height_, threads_;
+  std::unique_ptr<Executor> own_executor_;
+  view::Geometry geometry_;
+};
+
+Estimator::Estimator() = default;
+Estimator::~Estimator() = default;
+Estimator::Estimator(Estimator&&) noexcept = default;
+Estimator& Estimator::operator=(Estimator&&) noexcept = default;
+
+Status Estimator::create(const MethodSettings& settings, int width, int height, int threads,
+                         Estimator* estimator) {
+  if (width < 1 || height < 1 || width > 65535 || height > 65535) {
+    return invalid_argument(
+        text("image size is ", width, "x", height, "; each side must be in [1, 65535]"));
+  }
+  if (threads < 0 || threads > 1024) {
+    return invalid_argument(text("threads is ", threads, "; it must be in [0, 1024]"));
+  }
+  try {
+    std::unique_ptr<Method> method;
+    Status status =
+        std::visit([&](const auto& s) { return make_method(s, width, height, &method); }, settings);
+    if (!status.ok()) return status;
+    estimator->impl_ = std::make_unique<EstimatorImpl>(std::move(method), width, height, threads);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, "out of memory while creating the estimator"};
+  }
+}
+
+Status Estimator::run(const DepthField& field, const Outputs& outputs, const RunOptions& options) {
+  if (!impl_) return invalid_argument("the estimator has not been created");
+  try {
+    return impl_->run(field, outputs, options);
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, "out of memory while running the estimator"};
+  }
+}
+
+Status compute(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
+               const RunOptions& options) {
+  Estimator estimator;
+  Status status = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  return status.ok() ? estimator.run(field, outputs, options) : status;
+}
+
+}  // namespace obscura

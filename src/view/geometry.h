@@ -1,0 +1,46 @@
+#ifndef OBSCURA_SRC_VIEW_GEOMETRY_H_
+#define OBSCURA_SRC_VIEW_GEOMETRY_H_
+
+#include <vector>
+
+#include "core/aligned_image.h"
+#include "obscura/depth_field.h"
+#include "obscura/executor.h"
+
+namespace obscura::view {
+
+// A DepthField made uniform, the only form that estimators see: linear positive depth with +inf
+// for background, unit eye-space normals as three planes, the same padding everywhere.
+struct Geometry {
+  struct Layer {
+    AlignedImage<float> front, back;  // linear depth; front = +inf: no matter; back >= front
+  };
+
+  int width = 0, height = 0;  // whole image, guard band included
+  GuardBand guard_band;
+  Camera camera;
+  AlignedImage<float> depth;
+  bool has_normals = false;
+  // +z towards the camera; (0, 0, 1) on the background. Filled in the visible part only.
+  AlignedImage<float> normal_x, normal_y, normal_z;
+  AlignedImage<float> back_depth;      // when asked for; >= depth
+  std::vector<Layer> layers;           // when asked for
+  float min_depth = 0, max_depth = 0;  // over finite pixels; both 0 where all is background
+
+  int visible_width() const { return width - guard_band.left - guard_band.right; }
+  int visible_height() const { return height - guard_band.top - guard_band.bottom; }
+};
+
+// What an estimator reads beside depth.
+struct Needs {
+  bool normals = false;
+  bool back_depth = false;
+  int layers = 0;
+};
+
+// Checks a depth field and converts it, reusing the storage of `geometry`.
+Status convert(const DepthField& field, const Needs& needs, Executor& executor, Geometry* geometry);
+
+}  // namespace obscura::view
+
+#endif  // OBSCURA_SRC_VIEW_GEOMETRY_H_

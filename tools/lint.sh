@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Formatting, layering and clang-tidy. usage: tools/lint.sh BUILD_FOLDER (with compile_commands.json)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=$1
+
+mapfile -t sources < <(git ls-files '*.cpp' '*.h')
+clang-format --dry-run -Werror "${sources[@]}"
+echo "format: ${#sources[@]} files"
+
+tools/check_layers.sh
+tools/check_layers_test.sh
+
+# Kernels (*_simd.cpp) include themselves once per SIMD target, which clang-tidy cannot follow.
+mapfile -t units < <(git ls-files 'src/*.cpp' 'support/*.cpp' 'apps/*.cpp' | grep -v '_simd\.cpp$')
+printf '%s\n' "${units[@]}" |
+  xargs -P "$(nproc)" -n 4 clang-tidy --quiet -p "$build" 2>/dev/null
+echo "clang-tidy: ${#units[@]} files"

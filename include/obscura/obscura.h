@@ -13,6 +13,7 @@
 #include "obscura/outputs.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
+#include "obscura/version.h"
 #include "obscura/views.h"
 
 #endif  // OBSCURA_OBSCURA_H_

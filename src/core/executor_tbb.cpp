@@ -35,7 +35,7 @@ class TbbExecutor final : public Executor {
 }  // namespace
 
 std::unique_ptr<Executor> make_executor(int threads) {
-  return std::make_unique<TbbExecutor>(threads > 0 ? threads : tbb::task_arena::automatic);
+  return std::make_unique<TbbExecutor>(threads > 0 ? threads : int{tbb::task_arena::automatic});
 }
 
 }  // namespace obscura

@@ -1,5 +1,5 @@
-#ifndef OBSCURA_SUPPORT_REPORT_H_
-#define OBSCURA_SUPPORT_REPORT_H_
+#ifndef OBSCURA_SUPPORT_REPORT_REPORT_H_
+#define OBSCURA_SUPPORT_REPORT_REPORT_H_
 
 #include <optional>
 #include <string>
@@ -40,4 +40,4 @@ nlohmann::ordered_json describe_machine();
 
 }  // namespace obscura::support
 
-#endif  // OBSCURA_SUPPORT_REPORT_H_
+#endif  // OBSCURA_SUPPORT_REPORT_REPORT_H_

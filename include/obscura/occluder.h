@@ -17,7 +17,6 @@ struct EnumNames<OccluderKind> {
   static constexpr const char* names[] = {"solid", "thickness", "back-depth", "layers"};
 };
 
-// On the command line: solid | thickness:T | back-depth | layers:K.
 struct Occluder {
   OccluderKind kind = OccluderKind::kSolid;
   float thickness = 0;  // kThickness: world units, (0, inf)
@@ -30,6 +29,14 @@ struct Occluder {
 };
 
 Status validate(const Occluder& occluder);
+
+template <>
+struct SettingText<Occluder> {
+  static constexpr const char* form =
+      "solid, thickness:T with T in (0, inf), back-depth or layers:K with K in [1, 64]";
+  static bool parse(std::string_view text, Occluder* value);
+  static std::string write(const Occluder& value);
+};
 
 }  // namespace obscura
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "obscura/status.h"
@@ -39,6 +40,16 @@ constexpr Range positive_or_infinite() {
 // Any float or integer; NaN is in no range.
 constexpr Range anything() { return {}; }
 
+// What of a range fits an integer type.
+template <class T>
+Range integer_range(Range range) {
+  const auto lowest = static_cast<double>(std::numeric_limits<T>::min());
+  const auto highest = static_cast<double>(std::numeric_limits<T>::max());
+  if (!(range.min >= lowest)) range = {lowest, range.max, false, range.max_excluded};
+  if (!(range.max <= highest)) range = {range.min, highest, range.min_excluded, false};
+  return range;
+}
+
 struct Field {
   const char* name;  // C++ name; the command line writes '-' for '_'
   const char* unit;  // "" where there is none
@@ -59,6 +70,11 @@ const char* enum_name(E value) {
   return EnumNames<E>::names[static_cast<int>(value)];
 }
 
+// How a field's type that is neither number, flag nor enumeration is written as text. Specialised
+// beside each such type with `form` (its grammar, for help), `parse` (true on success) and `write`.
+template <class T>
+struct SettingText;
+
 // Used in the constraints of visit_fields, which takes its struct const or not.
 template <class Self, class Struct>
 concept FieldsOf = std::is_same_v<std::remove_const_t<Self>, Struct>;
@@ -68,6 +84,69 @@ std::string to_string(const Range& range);
 
 // The sentence for a value out of range: "samples is 0; it must be in [1, 32]".
 Status out_of_range(const Field& field, double value);
+
+// Parts of parse_setting.
+bool parse_number(std::string_view text, double* value);
+std::string write_number(double value, bool single_precision);
+Status bad_setting(std::string_view name, std::string_view text, std::string_view expected);
+std::string one_of(std::span<const char* const> names);
+
+// What a value of type T may be, for help and messages: "a number in (0, inf)", "one of a, b".
+template <class T>
+std::string expected_text(const Field& field) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return "true or false";
+  } else if constexpr (std::is_enum_v<T>) {
+    return one_of(enum_names<T>());
+  } else if constexpr (std::is_integral_v<T>) {
+    return "a whole number in " + to_string(integer_range<T>(field.range));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return "a number in " + to_string(field.range);
+  } else {
+    return SettingText<T>::form;
+  }
+}
+
+// Reads a value from text; on failure says what `name`, as the user knows it, may be.
+template <class T>
+Status parse_setting(std::string_view name, const Field& field, std::string_view text, T* value) {
+  bool good = false;
+  if constexpr (std::is_same_v<T, bool>) {
+    good = text == "true" || text == "false";
+    if (good) *value = text == "true";
+  } else if constexpr (std::is_enum_v<T>) {
+    const auto names = enum_names<T>();
+    for (std::size_t i = 0; i < names.size() && !good; ++i) {
+      good = text == names[i];
+      if (good) *value = static_cast<T>(i);
+    }
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    double number;
+    const Range range = std::is_integral_v<T> ? integer_range<T>(field.range) : field.range;
+    good = parse_number(text, &number) && range.contains(number) &&
+           (!std::is_integral_v<T> || number == std::floor(number));
+    // A number that rounds out of its range in T (1e-60 to 0, 1e60 to inf) is out of range too.
+    good = good && range.contains(static_cast<double>(static_cast<T>(number)));
+    if (good) *value = static_cast<T>(number);
+  } else {
+    good = SettingText<T>::parse(text, value);
+  }
+  return good ? Status() : bad_setting(name, text, expected_text<T>(field));
+}
+
+// The text that parse_setting would read back.
+template <class T>
+std::string write_setting(const T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return value ? "true" : "false";
+  } else if constexpr (std::is_enum_v<T>) {
+    return enum_name(value);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return write_number(static_cast<double>(value), std::is_same_v<T, float>);
+  } else {
+    return SettingText<T>::write(value);
+  }
+}
 
 // Checks every number of a settings struct against its range.
 template <class Settings>

@@ -1,5 +1,7 @@
 #include "obscura/settings.h"
 
+#include <charconv>
+
 #include "core/text.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
@@ -14,6 +16,68 @@ std::string to_string(const Range& range) {
   const bool open_above = range.max_excluded;
   return text(open_below ? "(" : "[", bound(range.min), ", ", bound(range.max),
               open_above ? ")" : "]");
+}
+
+bool parse_number(std::string_view text, double* value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *value);
+  return error == std::errc() && end == text.data() + text.size() && !std::isnan(*value);
+}
+
+std::string write_number(double value, bool single_precision) {
+  char buffer[32];
+  // The shortest digits that read back as the same number.
+  const auto result =
+      single_precision ? std::to_chars(buffer, buffer + sizeof(buffer), static_cast<float>(value))
+                       : std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return std::string(buffer, result.ptr);
+}
+
+Status bad_setting(std::string_view name, std::string_view given, std::string_view expected) {
+  return invalid_argument(text(name, " is '", given, "'; it must be ", expected));
+}
+
+std::string one_of(std::span<const char* const> names) {
+  std::string list = "one of ";
+  for (std::size_t i = 0; i < names.size(); ++i) list += text(i ? ", " : "", names[i]);
+  return list;
+}
+
+bool SettingText<Occluder>::parse(std::string_view given, Occluder* value) {
+  if (given == "solid" || given == "back-depth") {
+    *value = given == "solid" ? Occluder::solid() : Occluder::back_depth();
+    return true;
+  }
+  const auto colon = given.find(':');
+  double number;
+  if (colon == std::string_view::npos || !parse_number(given.substr(colon + 1), &number)) {
+    return false;
+  }
+  Occluder parsed;
+  if (given.starts_with("thickness:")) {
+    parsed = Occluder::of_thickness(static_cast<float>(number));
+  } else if (given.starts_with("layers:") && number >= 1 && number <= 64 &&
+             number == std::floor(number)) {
+    parsed = Occluder::of_layers(static_cast<int>(number));
+  } else {
+    return false;
+  }
+  if (!validate(parsed).ok()) return false;
+  *value = parsed;
+  return true;
+}
+
+std::string SettingText<Occluder>::write(const Occluder& value) {
+  switch (value.kind) {
+    case OccluderKind::kThickness:
+      return "thickness:" + write_number(value.thickness, true);
+    case OccluderKind::kLayers:
+      return text("layers:", value.layers);
+    case OccluderKind::kSolid:
+    case OccluderKind::kBackDepth:
+      break;
+  }
+  return enum_name(value.kind);
 }
 
 Status out_of_range(const Field& field, double value) {

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/text.h"
+#include "screen/blurred.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
 
@@ -11,7 +12,9 @@ namespace obscura {
 namespace {
 
 Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  return make_line(s, w, h, m);
+  if (Status status = make_line(s, m); !status.ok()) return status;
+  if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
+  return {};
 }
 
 template <class T>

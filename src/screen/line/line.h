@@ -2,16 +2,27 @@
 #define OBSCURA_SRC_SCREEN_LINE_LINE_H_
 
 #include <memory>
+#include <vector>
 
+#include "math/disk_pattern.h"
 #include "obscura/line.h"
 #include "screen/method.h"
 
 namespace obscura {
 
-// Line sampling of volumetric obscurance; settings and paper: obscura/line.h.
-// `width` x `height` is the whole depth image.
-Status make_line(const LineSettings& settings, int width, int height,
-                 std::unique_ptr<Method>* method);
+// Line sampling of volumetric obscurance; settings and paper: obscura/line.h. The blur is not part
+// of it (see screen/blurred.h). Writes 1 to background pixels.
+//
+// Taps are nearest texels. Beyond the image's border the border's own texel stands in, with its own
+// ray: what lies outside is unknown, and is taken to go on at the depth of the border, as seen
+// along the border's rays. So a plane gives 1 there too, and an occluder that touches the border
+// keeps its weight.
+Status make_line(const LineSettings& settings, std::unique_ptr<Method>* method);
+
+// The same with another pattern, of 1 to 32 samples inside the unit disk; `settings.samples` does
+// not count.
+Status make_line_with(const LineSettings& settings, const std::vector<DiskSample>& pattern,
+                      std::unique_ptr<Method>* method);
 
 }  // namespace obscura
 

@@ -12,6 +12,8 @@ if(OBSCURA_THREADS STREQUAL tbb)
 else()
   set(OBSCURA_PC_REQUIRES "libhwy")
 endif()
+# From the folder of the .pc file to the prefix, so that an installed tree can be moved.
+file(RELATIVE_PATH OBSCURA_PC_UP "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/obscura.pc.in obscura.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/obscura.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(TARGET obscura_command)

@@ -105,12 +105,15 @@ Image vector_picture(const VectorView<const float>& vectors) {
   return out;
 }
 
-Image error_picture(const ImageView<const float>& image, const ImageView<const float>& reference) {
-  Image out = rgb(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const float d = std::abs(image(x, y) - reference(x, y));
-      const bool known = !std::isnan(d);
+Image error_picture(const ImageView<const float>& image, const ImageView<const float>& reference,
+                    const ImageView<const float>& mask) {
+  Image out = rgb(reference.width, reference.height);
+  const int n = std::max(1, image.width / reference.width);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const int u = x * n + n / 2, v = y * n + n / 2;
+      const float d = std::abs(image(u, v) - reference(x, y));
+      const bool known = !std::isnan(d) && (mask.empty() || std::isfinite(mask(u, v)));
       for (int c = 0; c < 3; ++c) {
         const float unknown = c == 2 ? 0.7f : 0.5f;
         out.view(c)(x, y) = known ? clamp01(1 - d / 0.2f) : unknown;

@@ -22,8 +22,10 @@ Image depth_picture(const ImageView<const float>& depth);
 Image vector_picture(const VectorView<const float>& vectors);
 
 // The far-field paper's error picture: white where the images agree, black from 20 % on; grey-blue
-// where either has no value.
-Image error_picture(const ImageView<const float>& image, const ImageView<const float>& reference);
+// where either has no value or `mask`, when given, is not finite. Where the reference is N times
+// smaller, the image is read as in compare() and the picture has the reference's size.
+Image error_picture(const ImageView<const float>& image, const ImageView<const float>& reference,
+                    const ImageView<const float>& mask = {});
 
 // Pictures of equal height side by side, each under its title.
 struct Panel {

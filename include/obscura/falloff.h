@@ -27,7 +27,7 @@ struct Falloff {
   FalloffKind kind = FalloffKind::kExponential;
   float radius = 1;            // world units, (0, inf]; inf: rho = 1 for the four named kinds
   std::vector<float> table{};  // kTable: 2 or more values in [0, 1]
-  std::function<float(float)> function{};  // kFunction: called from several threads at set-up
+  std::function<float(float)> function{};  // kFunction: called at set-up only
 };
 template <FieldsOf<Falloff> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {

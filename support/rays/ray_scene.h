@@ -1,0 +1,62 @@
+#ifndef OBSCURA_SUPPORT_RAYS_RAY_SCENE_H_
+#define OBSCURA_SUPPORT_RAYS_RAY_SCENE_H_
+
+#include <memory>
+#include <vector>
+
+#include "obscura/status.h"
+#include "support/rays/mesh.h"
+
+namespace obscura::support {
+
+// A mesh made ready for rays (Embree). Calls are safe from many threads at once.
+class RayScene {
+ public:
+  // What a ray met. `normal` is the outward unit normal of a solid, the winding's of a sheet.
+  struct Hit {
+    double t = 0;  // in multiples of the ray's direction
+    Vec3 normal;
+    int part = 0;  // of Mesh::parts; spheres follow, one each
+  };
+
+  // Takes the mesh over. Its indices must be valid and its coordinates finite.
+  static Status create(Mesh mesh, std::unique_ptr<RayScene>* scene);
+  ~RayScene();
+
+  const Mesh& mesh() const { return mesh_; }
+  const Bounds& bounds() const { return bounds_; }
+  bool is_closed(int part) const {
+    return part >= int(mesh_.parts.size()) || mesh_.parts[part].closed;
+  }
+
+  // The nearest surface in front of `origin`. The distance is computed again in double from the
+  // primitive that was hit, and where several meet in an edge the same one is always taken.
+  bool intersect(Vec3 origin, Vec3 direction, Hit* hit) const;
+
+  // Every surface that the ray crosses, nearest first; degenerate and exactly edge-on triangles are
+  // left out. Reuses the storage of `hits`.
+  void intersect_all(Vec3 origin, Vec3 direction, std::vector<Hit>* hits) const;
+
+  // Distance along a unit direction to the nearest surface, +inf where there is none up to `far`.
+  float distance(const float origin[3], const float direction[3], float far) const;
+  // Whether there is one.
+  bool occluded(const float origin[3], const float direction[3], float far) const;
+
+  // The closed part or sphere around a point, or -1 where it is in the open.
+  int part_around(Vec3 point) const;
+
+ private:
+  struct Embree;
+
+  explicit RayScene(Mesh mesh);
+  bool refine(unsigned geometry, unsigned primitive, Vec3 origin, Vec3 direction, Hit* hit) const;
+  int part_of(std::size_t triangle) const;
+
+  Mesh mesh_;
+  Bounds bounds_;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_RAYS_RAY_SCENE_H_

@@ -1,0 +1,21 @@
+#ifndef OBSCURA_SUPPORT_RAYS_SOLIDS_H_
+#define OBSCURA_SUPPORT_RAYS_SOLIDS_H_
+
+#include "support/rays/mesh.h"
+
+namespace obscura::support {
+
+// Volume that triangles [first, first + count) enclose; positive where they face outward.
+double signed_volume(const Mesh& mesh, std::size_t first, std::size_t count);
+
+// Splits a mesh into connected components and decides which of them are solids. Vertices in
+// exactly the same place are one; triangles that share an edge are in one component. A component
+// is a solid if along each of its edges as many triangles run one way as the other, so that they
+// bound a volume, and if that volume is not nil. Its faces are turned outward if they all face in.
+// All other components become one part of open sheets. Triangles are reordered, part by part;
+// those that repeat a vertex are dropped.
+void find_solids(Mesh* mesh);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_RAYS_SOLIDS_H_

@@ -4,6 +4,7 @@
 // Everything in one include.
 
 #include "obscura/camera.h"
+#include "obscura/cone.h"
 #include "obscura/depth_field.h"
 #include "obscura/estimator.h"
 #include "obscura/executor.h"

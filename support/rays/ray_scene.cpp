@@ -210,20 +210,37 @@ void RayScene::intersect_all(Vec3 origin, Vec3 direction, std::vector<Hit>* hits
                    [](const Hit& a, const Hit& b) { return a.t < b.t; });
 }
 
-float RayScene::distance(const float origin[3], const float direction[3], float far) const {
+void RayScene::distances(Vec3 origin, const Bundle& bundle, float far, bool nearest,
+                         float distance[kLanes]) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRayHit ray = make_ray(origin, direction, far);
-  rtcIntersect1(embree_->scene, &context, &ray);
-  return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kInf : ray.ray.tfar;
-}
-
-bool RayScene::occluded(const float origin[3], const float direction[3], float far) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay ray = make_ray(origin, direction, far).ray;
-  rtcOccluded1(embree_->scene, &context, &ray);
-  return ray.tfar < 0;
+  alignas(64) int valid[kLanes];
+  alignas(64) RTCRayHit16 r;
+  const float o[3] = {float(origin.x), float(origin.y), float(origin.z)};
+  for (int i = 0; i < kLanes; ++i) {
+    valid[i] = i < bundle.count ? -1 : 0;
+    r.ray.org_x[i] = o[0];
+    r.ray.org_y[i] = o[1];
+    r.ray.org_z[i] = o[2];
+    r.ray.dir_x[i] = bundle.x[i];
+    r.ray.dir_y[i] = bundle.y[i];
+    r.ray.dir_z[i] = bundle.z[i];
+    r.ray.tnear[i] = 0;
+    r.ray.tfar[i] = far;
+    r.ray.time[i] = 0;
+    r.ray.mask[i] = ~0u;
+    r.ray.id[i] = r.ray.flags[i] = 0;
+    r.hit.geomID[i] = r.hit.primID[i] = r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  if (nearest) {
+    rtcIntersect16(valid, embree_->scene, &context, &r);
+    for (int i = 0; i < bundle.count; ++i) {
+      distance[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? kInf : r.ray.tfar[i];
+    }
+  } else {
+    rtcOccluded16(valid, embree_->scene, &context, &r.ray);
+    for (int i = 0; i < bundle.count; ++i) distance[i] = r.ray.tfar[i] < 0 ? 0 : kInf;
+  }
 }
 
 int RayScene::part_around(Vec3 point) const {

@@ -37,10 +37,16 @@ class RayScene {
   // left out. Reuses the storage of `hits`.
   void intersect_all(Vec3 origin, Vec3 direction, std::vector<Hit>* hits) const;
 
-  // Distance along a unit direction to the nearest surface, +inf where there is none up to `far`.
-  float distance(const float origin[3], const float direction[3], float far) const;
-  // Whether there is one.
-  bool occluded(const float origin[3], const float direction[3], float far) const;
+  // Rays of one origin, one lane each.
+  static constexpr int kLanes = 16;
+  struct Bundle {
+    alignas(64) float x[kLanes], y[kLanes], z[kLanes];  // unit directions
+    int count = 0;                                      // [0, kLanes]
+  };
+  // Distances to the nearest surfaces up to `far`; +inf where there is none. With `nearest` false
+  // any surface will do, which is faster: 0 where there is one.
+  void distances(Vec3 origin, const Bundle& bundle, float far, bool nearest,
+                 float distance[kLanes]) const;
 
   // The closed part or sphere around a point, or -1 where it is in the open.
   int part_around(Vec3 point) const;

@@ -145,10 +145,11 @@ void Shapes::link(Vec3 center, Vec3 along, Vec3 across, double straight, double 
                   double thickness, int segments, int sides) {
   std::vector<Vec3> path;
   const std::vector<double> radii(segments + 2, thickness);
+  const int bend = segments / 2;
   for (int half = 0; half < 2; ++half) {
     const double sign = half == 0 ? 1 : -1;
-    for (int i = 0; i <= segments / 2; ++i) {
-      const double angle = kPi * i / (segments / 2);
+    for (int i = 0; i <= bend; ++i) {
+      const double angle = kPi * i / bend;
       path.push_back(center + along * (sign * (straight / 2 + radius * std::sin(angle))) +
                      across * (sign * radius * std::cos(angle)));
     }

@@ -36,14 +36,17 @@ void build_plane(const PlaneSettings& s, std::uint64_t, Scene* scene) {
 
 struct GrooveSettings {
   double angle = 90;  // degrees
+  double reach = 40;  // world units
 };
 template <FieldsOf<GrooveSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.angle, Field{"angle", "degrees", closed(10, 170), "Opening angle between the walls."});
+  v(s.reach, Field{"reach", "world units", positive(),
+                   "Length of the walls, and half that of the groove; the camera is 4 away."});
 }
 
 void build_groove(const GrooveSettings& s, std::uint64_t, Scene* scene) {
-  const double half = s.angle / 2 * kDegree, distance = 4, reach = kFar * distance;
+  const double half = s.angle / 2 * kDegree, distance = 4, reach = s.reach;
   const double side = reach * std::sin(half), front = reach * std::cos(half), back = -distance;
   const Vec3 section[] = {{0, -reach, 0},
                           {side, -reach, front},
@@ -55,12 +58,17 @@ void build_groove(const GrooveSettings& s, std::uint64_t, Scene* scene) {
   scene->view.eye = {0, 0, distance};
 }
 
-struct NoSettings {};
-template <FieldsOf<NoSettings> Self, class Visitor>
-void visit_fields(Self&, Visitor&&) {}
+struct CornerSettings {
+  double reach = 40;  // world units
+};
+template <FieldsOf<CornerSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  v(s.reach,
+    Field{"reach", "world units", positive(), "Length of the walls' sides; the camera is 4 away."});
+}
 
-void build_corner(const NoSettings&, std::uint64_t, Scene* scene) {
-  const double distance = 4, reach = kFar * distance, t = distance;
+void build_corner(const CornerSettings& s, std::uint64_t, Scene* scene) {
+  const double distance = 4, reach = s.reach, t = distance;
   Shapes shapes(&scene->mesh);
   shapes.box({-t, -t, -t}, {reach, 0, reach});
   shapes.box({-t, -t, -t}, {0, reach, reach});

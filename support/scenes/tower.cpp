@@ -29,6 +29,7 @@ class Towers {
     shapes_.box({-30, -1, -45}, {30, 0, 25});
     keep({-4.2, 0, -4});
     std::vector<Vec3> masts;
+    masts.reserve(s_.masts);
     for (int i = 0; i < s_.masts; ++i) masts.push_back({1.2 + 3.6 * i, 0, -2.0 - 7 * i});
     for (Vec3 foot : masts) mast(foot, 11);
     for (std::size_t i = 1; i < masts.size(); ++i) wires(masts[i - 1], masts[i], 11);

@@ -1,0 +1,34 @@
+#ifndef OBSCURA_SUPPORT_FILES_FILES_H_
+#define OBSCURA_SUPPORT_FILES_FILES_H_
+
+#include <string>
+
+#include "support/files/atomic_file.h"
+#include "support/image.h"
+
+namespace obscura::support {
+
+// The ending in lower case, with its dot: ".exr".
+std::string file_ending(const std::string& path);
+
+// Reads an image by its ending: .exr (the channels of its first part over the data window), .pfm,
+// .png (as [0, 1]), .hdr.
+Status read_image(const std::string& path, Image* image);
+
+struct WriteOptions {
+  bool half = false;  // EXR: 16-bit floats
+  // EXR: the path of an EXR file whose other channels and attributes are copied along. Its display
+  // window has the image's size.
+  std::string keep_channels_of{};
+};
+
+// Writes an image by its ending: .exr, .pfm (1 or 3 channels), .png (the same, 8 bits). The file
+// is whole or not there, and an older one is not lost by a failure.
+Status write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
+
+// Whether write_image knows the ending.
+Status check_image_ending(const std::string& path);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_FILES_FILES_H_

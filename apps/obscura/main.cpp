@@ -1,5 +1,90 @@
 #include <cstdio>
-int main() {
-  std::puts("obscura");
-  return 0;
+#include <exception>
+#include <new>
+
+#include "apps/obscura/app.h"
+#include "fmt/format.h"
+#include "obscura/version.h"
+#include "support/progress/progress_bar.h"
+
+namespace obscura::app {
+namespace {
+
+// One line on stderr, whatever the message holds.
+int fail(std::string message, int code) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  fmt::print(stderr, "obscura: {}\n", message);
+  return code;
+}
+
+int exit_code(const Status& status) {
+  switch (status.code()) {
+    case StatusCode::kOk:
+      return kDone;
+    case StatusCode::kInvalidArgument:
+    case StatusCode::kUnsupported:
+      return kBadUsage;
+    case StatusCode::kInvalidInput:
+      return kBadInput;
+    default:
+      return kFailure;
+  }
+}
+
+int run(int argc, char** argv) {
+  App app;
+  app.cli.require_subcommand(1);
+  app.cli.set_version_flag("--version", fmt::format("obscura {}", version()));
+  app.cli.set_help_all_flag("--help-all", "Help of every command");
+  add_ao(app);
+  add_gbuffer(app);
+  add_compare(app);
+  add_info(app);
+  add_demo(app);
+  add_bench(app);
+  add_settings(app);
+  try {
+    app.cli.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.cli.exit(e);  // --help, --version
+  } catch (const CLI::ParseError& e) {
+    return fail(e.what(), kBadUsage);
+  }
+  support::catch_interrupts();
+  const Status status = app.action();
+  if (!status.ok()) return fail(status.message(), exit_code(status));
+  return app.exit_code;
+}
+
+}  // namespace
+
+CLI::App* App::add_command(const std::string& name, const std::string& description,
+                           std::function<Status()> run_command) {
+  CLI::App* command = cli.add_subcommand(name, description);
+  command->add_flag("-q,--quiet", quiet, "Print errors only");
+  command->callback([this, run_command = std::move(run_command)] { action = run_command; });
+  return command;
+}
+
+void add_threads_option(CLI::App* command, int* threads) {
+  command
+      ->add_option("--threads", *threads, "Threads; 0 takes every processor [0 to 1024, default 0]")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+}
+
+}  // namespace obscura::app
+
+int main(int argc, char** argv) {
+  using namespace obscura::app;
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", kFailure);
+  } catch (const std::exception& e) {
+    return fail(e.what(), kFailure);
+  }
 }

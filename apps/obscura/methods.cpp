@@ -1,145 +1,88 @@
 #include "apps/obscura/methods.h"
 
-#include <algorithm>
-
 #include "fmt/format.h"
 
 namespace obscura::app {
-namespace {
-
-std::string option_name(const char* field) {
-  std::string name = field;
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
-}
-
-// Calls visit(value, field) for every field of whichever settings struct it is.
-template <class Settings, class Visitor>
-void visit_any(Settings& settings, Visitor&& visitor) {
-  std::visit([&](auto& s) { visit_fields(s, visitor); }, settings);
-}
-
-// One option's help: what it is, what it may be, and its default per method.
-struct Help {
-  std::string sentence, expected, unit;
-  bool flag = false;
-  std::vector<std::pair<std::string, std::string>> defaults;  // text, methods
-
-  void add(const std::string& method, const std::string& value) {
-    for (auto& [text, names] : defaults) {
-      if (text == value) {
-        names += ", " + method;
-        return;
-      }
-    }
-    defaults.emplace_back(value, method);
-  }
-  std::string text(std::size_t method_count) const {
-    std::string out = sentence + " [" + expected;
-    if (!unit.empty()) out += ", " + unit;
-    out += "; default ";
-    for (std::size_t i = 0; i < defaults.size(); ++i) {
-      out += (i ? "; " : "") + defaults[i].first;
-      if (defaults.size() > 1 || method_count < methods().size()) {
-        out += " (" + defaults[i].second + ")";
-      }
-    }
-    return out + "]";
-  }
-};
-
-}  // namespace
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
-      {"line", "volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
+      {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
   };
   return list;
 }
 
 std::string method_names() {
   std::string names;
-  for (const MethodEntry& m : methods())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
-  return names;
-}
-
-const MethodEntry* find_method(const std::string& name) {
   for (const MethodEntry& m : methods()) {
-    if (name == m.name) return &m;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
   }
-  return nullptr;
+  return names;
 }
 
 void MethodOptions::add_to(CLI::App* command, const std::string& default_method) {
   method_ = default_method;
-  command->add_option("--method", method_,
-                      fmt::format("Estimator: {} [default {}]", method_names(), default_method));
-  std::vector<std::string> order;
-  std::map<std::string, Help> help;
+  command
+      ->add_option("--method", method_,
+                   fmt::format("Estimator: {} [default {}]", method_names(), default_method))
+      ->type_name("NAME");
   for (const MethodEntry& m : methods()) {
-    visit_any(m.defaults, [&](const auto& value, const Field& field) {
-      using T = std::remove_cvref_t<decltype(value)>;
-      Option& option = options_[field.name];
-      Help& h = help[field.name];
-      if (option.methods.empty()) {
-        order.push_back(field.name);
-        h.sentence = field.help;
-        h.expected = expected_text<T>(field);
-        h.unit = field.unit;
-        h.flag = std::is_same_v<T, bool>;
-      }
-      option.methods.push_back(m.name);
-      h.add(m.name, write_setting(value));
-    });
+    std::visit([&](const auto& s) { table_.declare(m.name, s); }, m.defaults);
   }
-  for (const std::string& field : order) {
-    Option& option = options_[field];
-    const std::string name = option_name(field.c_str());
-    const std::string text = help[field].text(option.methods.size());
-    option.option = help[field].flag
-                        ? command->add_flag(fmt::format("--{0},!--no-{0}", name), option.text, text)
-                        : command->add_option("--" + name, option.text, text)->type_name("");
-    option.option->group("Method settings");
-  }
+  table_.add_to(command, "Method settings");
 }
 
 Status MethodOptions::settings(MethodSettings* settings) const {
-  const MethodEntry* entry = find_method(method_);
-  if (!entry) {
-    return invalid_argument(
-        fmt::format("--method is '{}'; it must be one of {}", method_, method_names()));
+  for (const MethodEntry& m : methods()) {
+    if (method_ != m.name) continue;
+    if (Status s = table_.refuse_others(method_, "--method " + method_); !s.ok()) return s;
+    MethodSettings result = m.defaults;
+    const Status status = std::visit([&](auto& s) { return table_.read(&s); }, result);
+    if (status.ok()) *settings = std::move(result);
+    return status;
   }
-  MethodSettings result = entry->defaults;
-  for (const auto& [field, option] : options_) {
-    const auto& names = option.methods;
-    if (option.option->count() > 0 &&
-        std::find(names.begin(), names.end(), method_) == names.end()) {
-      return invalid_argument(fmt::format("--{} does not apply to --method {}; it belongs to {}",
-                                          option_name(field.c_str()), method_,
-                                          fmt::join(names, ", ")));
-    }
+  return invalid_argument(
+      fmt::format("--method is '{}'; it must be one of {}", method_, method_names()));
+}
+
+LayerNeeds layer_needs(const MethodSettings& settings) {
+  return std::visit(
+      [](const auto& s) {
+        const Occluder& o = s.occluder;
+        return LayerNeeds{.back_depth = o.kind == OccluderKind::kBackDepth,
+                          .layers = o.kind == OccluderKind::kLayers ? o.layers : 0};
+      },
+      settings);
+}
+
+Status run_method(const MethodSettings& settings, const LoadedInput& input, int threads,
+                  const Outputs& outputs, const RunOptions& options) {
+  DepthField field = input.depth.field();
+  field.normal_use = input.normal_use;
+  Estimator estimator;
+  Status status =
+      Estimator::create(settings, input.depth.width, input.depth.height, threads, &estimator);
+  if (status.ok()) status = estimator.run(field, outputs, options);
+  // The library knows no file names.
+  if (status.code() == StatusCode::kInvalidInput) {
+    return {status.code(), fmt::format("{}: {}", input.depth.name, status.message())};
   }
-  Status status;
-  visit_any(result, [&](auto& value, const Field& field) {
-    const Option& option = options_.at(field.name);
-    if (!status.ok() || option.option->count() == 0) return;
-    status = parse_setting("--" + option_name(field.name), field, option.text, &value);
-  });
-  if (status.ok()) *settings = std::move(result);
   return status;
 }
 
 nlohmann::ordered_json to_json(const MethodSettings& settings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  visit_any(settings, [&](const auto& value, const Field& field) {
-    using T = std::remove_cvref_t<decltype(value)>;
-    if constexpr (std::is_arithmetic_v<T>) {
-      json[field.name] = value;
-    } else {
-      json[field.name] = write_setting(value);
-    }
-  });
+  std::visit(
+      [&](const auto& s) {
+        visit_fields(s, [&](const auto& value, const Field& field) {
+          using T = std::remove_cvref_t<decltype(value)>;
+          if constexpr (std::is_arithmetic_v<T>) {
+            json[field.name] = value;
+          } else {
+            json[field.name] = write_setting(value);
+          }
+        });
+      },
+      settings);
   return json;
 }
 
@@ -152,11 +95,15 @@ std::string settings_markdown() {
     out += fmt::format("\n## {}\n\n{}.\n\n| field | meaning | value | unit | default |\n", m.name,
                        m.summary);
     out += "|---|---|---|---|---|\n";
-    visit_any(m.defaults, [&](const auto& value, const Field& field) {
-      using T = std::remove_cvref_t<decltype(value)>;
-      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.name, field.help,
-                         expected_text<T>(field), field.unit, write_setting(value));
-    });
+    std::visit(
+        [&](const auto& s) {
+          visit_fields(s, [&](const auto& value, const Field& field) {
+            using T = std::remove_cvref_t<decltype(value)>;
+            out += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.name, field.help,
+                               expected_text<T>(field), field.unit, write_setting(value));
+          });
+        },
+        m.defaults);
   }
   return out;
 }

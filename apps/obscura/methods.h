@@ -1,16 +1,17 @@
 #ifndef OBSCURA_APPS_OBSCURA_METHODS_H_
 #define OBSCURA_APPS_OBSCURA_METHODS_H_
 
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "CLI/CLI.hpp"
+#include "apps/obscura/input.h"
+#include "apps/obscura/option_table.h"
 #include "nlohmann/json.hpp"
 #include "obscura/estimator.h"
 
 namespace obscura::app {
+
+inline constexpr const char* kDefaultMethod = "line";
 
 // Every method that --method can name, with its settings at their defaults.
 struct MethodEntry {
@@ -20,10 +21,8 @@ struct MethodEntry {
 };
 const std::vector<MethodEntry>& methods();
 std::string method_names();
-const MethodEntry* find_method(const std::string& name);
 
-// The options of all methods, made from their tables of settings. An option that the chosen method
-// does not have is refused.
+// The options of all methods.
 class MethodOptions {
  public:
   // Adds --method and one option per field to a command.
@@ -35,14 +34,16 @@ class MethodOptions {
   Status settings(MethodSettings* settings) const;
 
  private:
-  struct Option {
-    CLI::Option* option = nullptr;
-    std::string text;
-    std::vector<std::string> methods;
-  };
   std::string method_;
-  std::map<std::string, Option> options_;  // by C++ field name
+  OptionTable table_;
 };
+
+// What the method reads beside depth and normals.
+LayerNeeds layer_needs(const MethodSettings& settings);
+
+// Runs any method on a loaded input.
+Status run_method(const MethodSettings& settings, const LoadedInput& input, int threads,
+                  const Outputs& outputs, const RunOptions& options);
 
 // Settings as JSON, field by field.
 nlohmann::ordered_json to_json(const MethodSettings& settings);

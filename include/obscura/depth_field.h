@@ -5,6 +5,7 @@
 #include <span>
 
 #include "obscura/camera.h"
+#include "obscura/settings.h"
 #include "obscura/views.h"
 
 namespace obscura {
@@ -14,6 +15,11 @@ enum class DepthKind {
   kDistance,     // along the pixel's ray, in world units
   kNdc,          // 0 at the near plane, 1 at the far plane
   kNdcReversed,  // 1 at the near plane, 0 at the far plane
+};
+
+template <>
+struct EnumNames<DepthKind> {
+  static constexpr const char* names[] = {"linear", "distance", "ndc", "ndc-reversed"};
 };
 
 enum class NormalUse {

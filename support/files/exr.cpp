@@ -168,6 +168,14 @@ Status write_exr(const std::string& path, const Image& image, const ExrWriteOpti
       if (!storage) header.insert(it.name(), it.attribute());
     }
   }
+  auto add_matrix = [&](const char* name, const std::optional<ExrHeader::Matrix>& matrix) {
+    if (!matrix) return;
+    Imath::M44f m;
+    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = static_cast<float>((*matrix)[i]);
+    header.insert(name, Imf::M44fAttribute(m));
+  };
+  add_matrix("worldToCamera", options.world_to_camera);
+  add_matrix("worldToNDC", options.world_to_ndc);
   // ZIP of scanline blocks is what every reader takes; level 4 of zlib is OpenEXR's own default.
   header.compression() = Imf::ZIP_COMPRESSION;
 

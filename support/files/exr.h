@@ -52,6 +52,7 @@ struct ExrWriteOptions {
   const ExrHeader* attributes_of = nullptr;
   // Where the image lies; by default its own size is display and data window.
   std::optional<PixelWindow> display_window, data_window;
+  std::optional<ExrHeader::Matrix> world_to_camera, world_to_ndc;
   // Channels that keep a type of their own.
   std::vector<ExrHeader::Channel> types;
 };

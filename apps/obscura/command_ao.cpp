@@ -1,0 +1,121 @@
+// obscura ao: ambient visibility of a depth image, a mesh or a scene, from file to file.
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "apps/obscura/app.h"
+#include "apps/obscura/input.h"
+#include "apps/obscura/methods.h"
+#include "apps/obscura/output.h"
+#include "fmt/format.h"
+#include "support/files/files.h"
+#include "support/progress/progress_bar.h"
+
+namespace obscura::app {
+namespace {
+
+struct AoCommand {
+  InputOptions input;
+  MethodOptions method;
+  std::string output, outputs = "visibility", json;
+  int threads = 0;
+  bool keep_channels = false, half = false;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double mean(const ImageView<const float>& image) {
+  double sum = 0;
+  std::int64_t count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (std::isnan(image(x, y))) continue;
+      sum += image(x, y);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : NAN;
+}
+
+Status run_ao(const AoCommand& c, bool quiet) {
+  const auto start = std::chrono::steady_clock::now();
+  MethodSettings settings;
+  OutputImages images;
+  if (Status s = c.method.settings(&settings); !s.ok()) return s;
+  if (Status s = OutputImages::parse(c.outputs, &images); !s.ok()) return s;
+  if (Status s = images.check_file(c.output); !s.ok()) return s;
+  if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
+  if (c.keep_channels && (support::file_ending(c.output) != ".exr" ||
+                          support::file_ending(c.input.path()) != ".exr")) {
+    return invalid_argument("--keep-channels needs an EXR file as input and as output");
+  }
+
+  LoadedInput input;
+  if (Status s = c.input.load(layer_needs(settings), c.threads, &input); !s.ok()) return s;
+  const double loaded = seconds_since(start);
+
+  const DepthField field = input.depth.field();
+  const Outputs outputs = images.allocate(field.visible_width(), field.visible_height());
+  support::ProgressBar bar(c.method.method(), !quiet);
+  RunOptions options;
+  options.progress = [&bar](double share) { return bar(share); };
+  if (Status s = run_method(settings, input, c.threads, outputs, options); !s.ok()) return s;
+  const double computed = seconds_since(start);
+
+  support::WriteOptions write;
+  write.half = c.half;
+  if (c.keep_channels) write.keep_channels_of = c.input.path();
+  if (Status s = support::write_image(c.output, images.image(), write); !s.ok()) return s;
+  const double total = seconds_since(start);
+
+  support::Report report;
+  report.settings = to_json(settings);
+  report.settings["input"] = c.input.path();
+  report.settings["method"] = c.method.method();
+  const std::string& name = c.method.method();
+  if (!outputs.visibility.empty()) report.add(name, "mean visibility", mean(outputs.visibility));
+  report.add(name, "time to load", 1e3 * loaded, "ms");
+  report.add(name, "time to compute", 1e3 * (computed - loaded), "ms");
+  report.add(name, "time to write", 1e3 * (total - computed), "ms");
+  if (!quiet && c.json != "-") {
+    fmt::print("{}: {}x{}, {}{}, {:.2f} s\n", c.output, field.visible_width(),
+               field.visible_height(), name,
+               outputs.visibility.empty()
+                   ? ""
+                   : fmt::format(", mean visibility {:.3f}", mean(outputs.visibility)),
+               total);
+  }
+  return write_json(report, c.json);
+}
+
+}  // namespace
+
+void add_ao(App& app) {
+  auto c = std::make_shared<AoCommand>();
+  CLI::App* command = app.add_command(
+      "ao",
+      "Ambient visibility of a depth image (EXR, PFM, 16-bit PNG), a mesh (OBJ, PLY, glTF, also "
+      ".gz) or a procedural scene (scene:NAME?key=value&...)",
+      [c, &app] { return run_ao(*c, app.quiet); });
+  command
+      ->add_option("-o,--output", c->output, "Result; its ending picks the format: exr, pfm, png")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--outputs", c->outputs,
+                   fmt::format("Comma-separated results: {} [default visibility]",
+                               OutputImages::all_names()))
+      ->type_name("LIST");
+  c->method.add_to(command, kDefaultMethod);
+  c->input.add_to(command);
+  add_threads_option(command, &c->threads);
+  command->add_flag("--keep-channels", c->keep_channels,
+                    "Copy the input's other channels and attributes into an EXR result");
+  command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
+  command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,140 @@
+// obscura compare: how an image differs from a reference.
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "apps/obscura/app.h"
+#include "apps/obscura/output.h"
+#include "fmt/format.h"
+#include "support/files/files.h"
+#include "support/metrics/compare.h"
+#include "support/pictures/pictures.h"
+
+namespace obscura::app {
+namespace {
+
+struct CompareCommand {
+  std::string image, reference, mask, channel, error_image, json;
+  bool quiet = false;
+};
+
+// The channels to compare: those asked for, else visibility, else all that both images have.
+Status choose_channels(const support::Image& a, const support::Image& b, const std::string& wanted,
+                       std::vector<std::pair<int, int>>* pairs) {
+  std::string names_a, names_b;
+  for (int i = 0; i < static_cast<int>(a.channels.size()); ++i) {
+    names_a += " " + a.channels[i].name;
+    for (int j = 0; j < static_cast<int>(b.channels.size()); ++j) {
+      if (a.channels[i].name != b.channels[j].name) continue;
+      if (!wanted.empty() && a.channels[i].name != wanted) continue;
+      pairs->emplace_back(i, j);
+    }
+  }
+  for (const auto& c : b.channels) names_b += " " + c.name;
+  if (wanted.empty()) {
+    if (a.channels.size() == 1 && b.channels.size() == 1) *pairs = {{0, 0}};
+    for (const auto& pair : *pairs) {
+      if (a.channels[pair.first].name == "visibility") {
+        *pairs = {pair};
+        break;
+      }
+    }
+    // A lone channel, whatever its name in that file format, against a visibility channel.
+    auto lone = [&](const support::Image& many, const support::Image& one, bool swap) {
+      if (!pairs->empty() || one.channels.size() != 1) return;
+      for (int i = 0; i < static_cast<int>(many.channels.size()); ++i) {
+        if (many.channels[i].name != "visibility") continue;
+        pairs->push_back(swap ? std::pair{0, i} : std::pair{i, 0});
+      }
+    };
+    lone(a, b, false);
+    lone(b, a, true);
+  }
+  if (!pairs->empty()) return {};
+  return invalid_input(fmt::format("no channel{} in both images: the first has{}, the second has{}",
+                                   wanted.empty() ? "" : " '" + wanted + "'", names_a, names_b));
+}
+
+// The visible part of a depth image that may have a guard band around it.
+Status crop_mask(const support::Image& depth, int width, int height, ImageView<const float>* mask) {
+  int channel = 0;
+  for (int i = 0; i < static_cast<int>(depth.channels.size()); ++i) {
+    if (depth.channels[i].name == "Z") channel = i;
+  }
+  const int dx = depth.width - width, dy = depth.height - height;
+  if (dx < 0 || dy < 0 || dx % 2 != 0 || dy % 2 != 0) {
+    return invalid_input(fmt::format(
+        "--mask is {}x{}; it must have the first image's size, {}x{}, or a guard band around it",
+        depth.width, depth.height, width, height));
+  }
+  const auto full = depth.view(channel);
+  *mask = {full.data + dy / 2 * full.row_stride + dx / 2, width, height, full.row_stride};
+  return {};
+}
+
+Status run_compare(const CompareCommand& c) {
+  support::Image a, b, depth;
+  if (Status s = support::read_image(c.image, &a); !s.ok()) return s;
+  if (Status s = support::read_image(c.reference, &b); !s.ok()) return s;
+  std::vector<std::pair<int, int>> pairs;
+  if (Status s = choose_channels(a, b, c.channel, &pairs); !s.ok()) return s;
+  ImageView<const float> mask;
+  if (!c.mask.empty()) {
+    if (Status s = support::read_image(c.mask, &depth); !s.ok()) return s;
+    if (Status s = crop_mask(depth, a.width, a.height, &mask); !s.ok()) return s;
+  }
+  support::Report report;
+  report.settings = {{"image", c.image}, {"reference", c.reference}, {"mask", c.mask}};
+  for (const auto& [i, j] : pairs) {
+    support::Comparison r;
+    if (Status s = support::compare(a.view(i), b.view(j), mask, &r); !s.ok()) return s;
+    const std::string& name = a.channels[i].name;
+    report.add(name, "e_A", r.e_a, "%");
+    report.add(name, "e_<5%", r.within_5, "%");
+    report.add(name, "bias", r.bias, "%");
+    report.add(name, "RMSE", r.rmse, "%");
+    report.add(name, "maximum", r.maximum, "%");
+    report.add(name, "correlation", r.correlation);
+    report.add(name, "pixels", static_cast<double>(r.pixels));
+    if (!c.quiet && c.json != "-") {
+      fmt::print(
+          "{}: e_A {:.3f} %  e_<5% {:.2f} %  bias {:+.3f} %  RMSE {:.3f} %  maximum {:.2f} %"
+          "  correlation {:.4f}  ({} pixels)\n",
+          name, r.e_a, r.within_5, r.bias, r.rmse, r.maximum, r.correlation, r.pixels);
+    }
+  }
+  if (!c.error_image.empty()) {
+    const support::Image picture =
+        support::error_picture(a.view(pairs[0].first), b.view(pairs[0].second), mask);
+    if (Status s = support::write_image(c.error_image, picture); !s.ok()) return s;
+  }
+  return write_json(report, c.json);
+}
+
+}  // namespace
+
+void add_compare(App& app) {
+  auto c = std::make_shared<CompareCommand>();
+  CLI::App* command = app.add_command(
+      "compare",
+      "How image A differs from reference B. Where B is N times smaller, A is read at every N-th "
+      "pixel from floor(N/2). NaN pixels are left out.",
+      [c, &app] {
+        c->quiet = app.quiet;
+        return run_compare(*c);
+      });
+  command->add_option("A", c->image, "Image: EXR, PFM or PNG")->required()->type_name("FILE");
+  command->add_option("B", c->reference, "Reference")->required()->type_name("FILE");
+  command->add_option("--mask", c->mask, "Depth image; pixels without a finite depth are left out")
+      ->type_name("DEPTH");
+  command->add_option("--channel", c->channel, "Compare this channel [visibility, else all common]")
+      ->type_name("NAME");
+  command
+      ->add_option("--error-image", c->error_image,
+                   "Write the error as a picture: white 0 %, black 20 % and more")
+      ->type_name("FILE.png");
+  command->add_option("--json", c->json, "Write the figures as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,46 @@
+// obscura info: what a file holds.
+#include <cstdio>
+#include <memory>
+
+#include "apps/obscura/app.h"
+#include "apps/obscura/output.h"
+#include "fmt/format.h"
+#include "support/files/describe.h"
+#include "support/files/files.h"
+
+namespace obscura::app {
+namespace {
+
+struct InfoCommand {
+  std::string path, json;
+};
+
+Status run_info(const InfoCommand& c) {
+  nlohmann::ordered_json description;
+  if (Status s = support::describe_image(c.path, &description); !s.ok()) return s;
+  if (c.json != "-") std::fputs(support::description_text(description).c_str(), stdout);
+  if (c.json.empty()) return {};
+  support::Report report;
+  report.settings = description;
+  for (const auto& channel : description["channels"]) {
+    for (const char* metric : {"min", "max", "finite", "nan", "infinite"}) {
+      if (channel.contains(metric)) {
+        report.add(channel["name"], metric, channel[metric].get<double>());
+      }
+    }
+  }
+  return write_json(report, c.json);
+}
+
+}  // namespace
+
+void add_info(App& app) {
+  auto c = std::make_shared<InfoCommand>();
+  CLI::App* command = app.add_command("info", "What a file holds and how it would be read",
+                                      [c] { return run_info(*c); });
+  command->add_option("FILE", c->path, "Image: EXR, PFM, PNG or HDR")->required()->type_name("");
+  command->add_option("--json", c->json, "Write it as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,75 @@
+#ifndef OBSCURA_APPS_OBSCURA_OPTION_TABLE_H_
+#define OBSCURA_APPS_OBSCURA_OPTION_TABLE_H_
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "obscura/settings.h"
+
+namespace obscura::app {
+
+// "near_step" as the command line has it: "near-step".
+std::string option_name(std::string field);
+
+// Command-line options made from tables of settings. Several structs, each under a label (a method,
+// a kind of input), may share an option by using one name for a field.
+class OptionTable {
+ public:
+  // Takes in the fields of a struct, with its values as the defaults.
+  template <class Settings>
+  void declare(const std::string& label, const Settings& defaults) {
+    if (std::find(labels_.begin(), labels_.end(), label) == labels_.end()) labels_.push_back(label);
+    visit_fields(defaults, [&](const auto& value, const Field& field) {
+      using T = std::remove_cvref_t<decltype(value)>;
+      declare_field(label, field, expected_text<T>(field), write_setting(value),
+                    std::is_same_v<T, bool>);
+    });
+  }
+
+  // Adds one option per field, once all structs are declared.
+  void add_to(CLI::App* command, const std::string& group);
+
+  // Fails where an option was given that the struct under `label` does not have. `what` names it in
+  // the message: "--method line".
+  Status refuse_others(const std::string& label, const std::string& what) const;
+
+  // Lays the options that were given over the fields of a struct.
+  template <class Settings>
+  Status read(Settings* settings) const {
+    Status status;
+    visit_fields(*settings, [&](auto& value, const Field& field) {
+      const auto at = options_.find(field.name);
+      if (!status.ok() || at == options_.end() || at->second.option->count() == 0) return;
+      status = parse_setting("--" + option_name(field.name), field, at->second.text, &value);
+    });
+    return status;
+  }
+
+  bool given(const std::string& field) const;
+
+ private:
+  struct Option {
+    CLI::Option* option = nullptr;
+    std::string text;
+    std::vector<std::string> labels;
+    std::string help, expected, unit;
+    bool flag = false;
+    std::vector<std::pair<std::string, std::string>> defaults;  // value, labels
+  };
+
+  void declare_field(const std::string& label, const Field& field, const std::string& expected,
+                     const std::string& default_value, bool flag);
+  std::string help_text(const Option& option) const;
+
+  std::vector<std::string> labels_;
+  std::vector<std::string> order_;
+  std::map<std::string, Option> options_;  // by C++ field name
+};
+
+}  // namespace obscura::app
+
+#endif  // OBSCURA_APPS_OBSCURA_OPTION_TABLE_H_

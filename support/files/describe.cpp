@@ -1,0 +1,106 @@
+#include "support/files/describe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fmt/format.h"
+#include "support/files/depth_file.h"
+#include "support/files/files.h"
+
+namespace obscura::support {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe_channel(const Image::Channel& channel, const std::string& type) {
+  float lo = INFINITY, hi = -INFINITY;
+  std::int64_t finite = 0, nan = 0, infinite = 0;
+  for (float v : channel.values) {
+    if (std::isnan(v)) {
+      ++nan;
+    } else if (std::isinf(v)) {
+      ++infinite;
+    } else {
+      ++finite;
+      lo = std::min(lo, v);
+      hi = std::max(hi, v);
+    }
+  }
+  Json json{{"name", channel.name}, {"type", type}};
+  if (finite > 0) {
+    json["min"] = lo;
+    json["max"] = hi;
+  }
+  json["finite"] = finite;
+  json["nan"] = nan;
+  json["infinite"] = infinite;
+  return json;
+}
+
+Json describe_window(const PixelWindow& w) {
+  return Json::array({w.min_x, w.min_y, w.max_x, w.max_y});
+}
+
+void describe_exr(const std::string& path, const ExrHeader& header, Json* json) {
+  (*json)["display_window"] = describe_window(header.display_window);
+  (*json)["data_window"] = describe_window(header.data_window);
+  (*json)["attributes"] = header.attributes;
+  ExrChannelChoice choice;
+  const Status s = choose_exr_channels(path, header, {}, &choice);
+  (*json)["depth"] = s.ok() ? choice.depth : s.message();
+  if (!choice.back_depth.empty()) (*json)["back_depth"] = choice.back_depth;
+  (*json)["normals"] =
+      choice.normals[0].empty()
+          ? std::string("none; reconstructed from depth")
+          : fmt::format("{} {} {}", choice.normals[0], choice.normals[1], choice.normals[2]);
+  (*json)["camera"] = header.world_to_camera && header.world_to_ndc
+                          ? "from worldToCamera and worldToNDC"
+                          : "not in the file; give fov-y, ortho-height, focal-length with "
+                            "sensor-height, or projection";
+}
+
+}  // namespace
+
+Status describe_image(const std::string& path, Json* description) {
+  Json json{{"file", path}};
+  Image image;
+  ExrHeader header;
+  const bool exr = file_ending(path) == ".exr";
+  Status s = exr ? read_exr(path, {}, &header, &image) : read_image(path, &image);
+  if (!s.ok()) return s;
+  json["kind"] = file_ending(path).substr(1);
+  json["width"] = image.width;
+  json["height"] = image.height;
+  if (exr) describe_exr(path, header, &json);
+  json["channels"] = Json::array();
+  for (const Image::Channel& c : image.channels) {
+    const auto* native = exr ? header.find(c.name) : nullptr;
+    const char* type = file_ending(path) == ".png" ? "8 or 16 bits, as [0, 1]" : "float";
+    json["channels"].push_back(describe_channel(c, native ? native->type : type));
+  }
+  *description = std::move(json);
+  return {};
+}
+
+std::string description_text(const Json& description) {
+  std::string out;
+  for (const auto& [key, value] : description.items()) {
+    if (value.is_array() && !value.empty() && value[0].is_object()) {
+      out += key + ":\n";
+      for (const auto& entry : value) {
+        out += "  ";
+        for (const auto& [name, field] : entry.items()) {
+          const std::string text = field.is_string() ? field.get<std::string>() : field.dump();
+          out += name == "name" ? text : fmt::format("  {} {}", name, text);
+        }
+        out += "\n";
+      }
+    } else {
+      const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+      out += fmt::format("{}: {}\n", key, text);
+    }
+  }
+  return out;
+}
+
+}  // namespace obscura::support

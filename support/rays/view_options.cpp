@@ -24,7 +24,7 @@ Status apply_options(const ViewOptions& options, ViewSpec* view) {
   }
   v.width = options.size.width;
   v.height = options.size.height;
-  v.guard_band = options.guard.resolve(options.size);
+  v.guard_band = options.guard_band.resolve(options.size);
   v.eye = options.eye.value_or(v.eye);
   v.look_at = options.look_at.value_or(v.look_at);
   v.up = options.up.value_or(v.up);

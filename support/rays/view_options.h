@@ -24,7 +24,7 @@ struct GuardBandSpec {
 // scene's own, or frames the mesh.
 struct ViewOptions {
   ImageSize size{};
-  GuardBandSpec guard{};
+  GuardBandSpec guard_band{};
   std::optional<Vec3> eye{}, look_at{}, up{};
   std::optional<double> fov_y{}, ortho_height{};
   int layers = 0;
@@ -71,7 +71,7 @@ namespace support {
 template <FieldsOf<ViewOptions> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.size, Field{"size", "", {}, "Visible size of the image."});
-  v(s.guard, Field{"guard", "", {}, "Guard band on each side."});
+  v(s.guard_band, Field{"guard_band", "", {}, "Guard band on each side."});
   v(s.eye, Field{"eye", "world units", {}, "Where the camera stands."});
   v(s.look_at, Field{"look_at", "world units", {}, "The point that it looks at."});
   v(s.up, Field{"up", "", {}, "The direction that is up in the image."});

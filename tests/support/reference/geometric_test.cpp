@@ -106,7 +106,7 @@ double sphere_over_plane(Vec3 p, Vec3 n) {
 }
 
 TEST(Geometric, SphereOverPlane) {
-  const Rendering r = render("scene:sphere-over-plane?size=32x18&guard=0");
+  const Rendering r = render("scene:sphere-over-plane?size=32x18&guard-band=0");
   Result result(r);
   ASSERT_TRUE(trace_geometric(r, endless(4096), result.only_visibility()).ok());
   expect_close(deviation(r, result.visibility, sphere_over_plane), "sphere over plane");
@@ -128,7 +128,8 @@ TEST(Geometric, GrooveOfTwoWalls) {
   constexpr double kReach = 40;  // the walls' length, and half the groove's
   for (double degrees : {60.0, 90.0, 120.0}) {
     const double angle = degrees * kPi / 180, c = std::cos(angle / 2), h = std::sin(angle / 2);
-    const Rendering r = render("scene:groove?size=24x14&guard=0&angle=" + std::to_string(degrees));
+    const Rendering r =
+        render("scene:groove?size=24x14&guard-band=0&angle=" + std::to_string(degrees));
     Result result(r);
     ASSERT_TRUE(trace_geometric(r, endless(4096), result.only_visibility()).ok());
     auto other_wall = [&](Vec3 p, Vec3 n) {
@@ -141,7 +142,7 @@ TEST(Geometric, GrooveOfTwoWalls) {
 }
 
 TEST(Geometric, CornerOfThreeWalls) {
-  const Rendering r = render("scene:corner?size=24x14&guard=0");
+  const Rendering r = render("scene:corner?size=24x14&guard-band=0");
   Result result(r);
   ASSERT_TRUE(trace_geometric(r, endless(4096), result.only_visibility()).ok());
   auto other_walls = [](Vec3 p, Vec3 n) {
@@ -163,8 +164,9 @@ TEST(Geometric, InfiniteGrooveAndCornerByBothWeights) {
     const char* spec;
     double cosine, uniform;
   };
-  for (const Case& c : {Case{"scene:groove?size=12x8&guard=0&reach=2000&angle=60", 0.25, 1.0 / 3},
-                        Case{"scene:corner?size=12x8&guard=0&reach=2000", 0.25, 0.25}}) {
+  for (const Case& c :
+       {Case{"scene:groove?size=12x8&guard-band=0&reach=2000&angle=60", 0.25, 1.0 / 3},
+        Case{"scene:corner?size=12x8&guard-band=0&reach=2000", 0.25, 0.25}}) {
     const Rendering r = render(c.spec);
     Result result(r);
     for (Weighting weighting : {Weighting::kCosine, Weighting::kUniform}) {
@@ -180,7 +182,7 @@ TEST(Geometric, InfiniteGrooveAndCornerByBothWeights) {
 }
 
 TEST(Geometric, BumpOnAPlane) {
-  const Rendering r = render("scene:bump?size=32x18&guard=0");
+  const Rendering r = render("scene:bump?size=32x18&guard-band=0");
   Result result(r);
   ASSERT_TRUE(trace_geometric(r, endless(4096), result.only_visibility()).ok());
   auto closed_form = [](Vec3 p, Vec3) {
@@ -195,7 +197,7 @@ TEST(Geometric, BumpOnAPlane) {
 // The checks above must be able to fail: uniform instead of cosine weights, and a normal off by
 // 2 degrees.
 TEST(Geometric, WrongCosineIsNoticed) {
-  const Rendering r = render("scene:groove?size=24x14&guard=0&angle=60");
+  const Rendering r = render("scene:groove?size=24x14&guard-band=0&angle=60");
   Result result(r);
   ASSERT_TRUE(
       trace_geometric(r, endless(4096, Weighting::kUniform), result.only_visibility()).ok());
@@ -213,7 +215,7 @@ TEST(Geometric, WrongCosineIsNoticed) {
 // integrals are elementary.
 TEST(Geometric, DirectionsInAGroove) {
   const double angle = kPi / 3, s = std::sin(angle);
-  const Rendering r = render("scene:groove?size=16x10&guard=0&angle=60&reach=2000");
+  const Rendering r = render("scene:groove?size=16x10&guard-band=0&angle=60&reach=2000");
   Result result(r);
   GeometricSettings settings = endless(4096);
   settings.offset = 1e-3;
@@ -236,7 +238,7 @@ TEST(Geometric, DirectionsInAGroove) {
 }
 
 TEST(Geometric, OpenPlaneGivesTheValuesOfAnOpenHemisphere) {
-  const Rendering r = render("scene:plane?size=9x5&guard=0&tilt-x=40&tilt-y=-20");
+  const Rendering r = render("scene:plane?size=9x5&guard-band=0&tilt-x=40&tilt-y=-20");
   Result result(r);
   ASSERT_TRUE(trace_geometric(r, endless(1024), result.all()).ok());
   for (int i = 0; i < 45; ++i) {
@@ -254,7 +256,7 @@ TEST(Geometric, OpenPlaneGivesTheValuesOfAnOpenHemisphere) {
 
 // Falloffs written in other ways must agree with the named ones.
 TEST(Geometric, FalloffsAgreeWithTablesAndFunctions) {
-  const Rendering r = render("scene:cornell?size=24x14&guard=0");
+  const Rendering r = render("scene:cornell?size=24x14&guard-band=0");
   GeometricSettings named, other;
   named.rays = other.rays = 64;
   auto compare = [&](const char* what) {
@@ -284,7 +286,7 @@ TEST(Geometric, FalloffsAgreeWithTablesAndFunctions) {
 }
 
 TEST(Geometric, SeedsDifferAsTheStatedErrorSays) {
-  const Rendering r = render("scene:cornell?size=32x18&guard=0");
+  const Rendering r = render("scene:cornell?size=32x18&guard-band=0");
   GeometricSettings s;
   s.rays = 256;
   s.falloff.radius = 0.5f;
@@ -302,7 +304,7 @@ TEST(Geometric, SeedsDifferAsTheStatedErrorSays) {
 }
 
 TEST(Geometric, SameBitsForAnyNumberOfThreads) {
-  const Rendering r = render("scene:hall?size=40x22&guard=0");
+  const Rendering r = render("scene:hall?size=40x22&guard-band=0");
   GeometricSettings s;
   s.rays = 30;
   Result a(r), b(r);
@@ -316,7 +318,7 @@ TEST(Geometric, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Geometric, SubsetIsTheWholeAtItsPixels) {
-  const Rendering r = render("scene:tower?size=46x26&guard=3");
+  const Rendering r = render("scene:tower?size=46x26&guard-band=3");
   GeometricSettings s;
   s.rays = 16;
   Result whole(r), subset(r), filled(r);
@@ -348,7 +350,7 @@ TEST(Geometric, SubsetIsTheWholeAtItsPixels) {
 }
 
 TEST(Geometric, StopsWhenAsked) {
-  const Rendering r = render("scene:hall?size=64x36&guard=0");
+  const Rendering r = render("scene:hall?size=64x36&guard-band=0");
   Result result(r);
   int calls = 0;
   RunOptions options;
@@ -363,7 +365,7 @@ TEST(Geometric, StopsWhenAsked) {
 }
 
 TEST(Geometric, RefusesWhatItCannotUse) {
-  const Rendering r = render("scene:plane?size=8x8&guard=0");
+  const Rendering r = render("scene:plane?size=8x8&guard-band=0");
   Result result(r);
   auto refuse = [&](GeometricSettings s, const char* message) {
     const Status status = trace_geometric(r, s, result.only_visibility());

@@ -64,13 +64,13 @@ TEST(Scenes, SameSeedSameBitsForAnyNumberOfThreads) {
 
 TEST(Scenes, OptionsReachTheView) {
   DepthInput input;
-  ASSERT_TRUE(load_scene("scene:corner?size=101x57&guard=7,9&fov-y=40", &input).ok());
+  ASSERT_TRUE(load_scene("scene:corner?size=101x57&guard-band=7,9&fov-y=40", &input).ok());
   EXPECT_EQ(input.width, 101 + 14);
   EXPECT_EQ(input.height, 57 + 18);
   EXPECT_EQ(input.guard_band, GuardBand::symmetric(7, 9));
   EXPECT_NEAR(input.camera.scale_y, 2 * std::tan(20 * 3.14159265358979 / 180) / 57, 1e-7);
   ASSERT_TRUE(
-      load_scene("scene:plane?guard=25%&ortho-height=2&tilt-x=0&back-depth=1", &input).ok());
+      load_scene("scene:plane?guard-band=25%&ortho-height=2&tilt-x=0&back-depth=1", &input).ok());
   EXPECT_EQ(input.guard_band, GuardBand::symmetric(160, 90));
   EXPECT_TRUE(input.camera.orthographic);
   EXPECT_FLOAT_EQ(input.depth[0], 3);
@@ -88,8 +88,8 @@ TEST(Scenes, MistakesAreNamed) {
       {"scene:hall?bays=0", "bays"},
       {"scene:hall?size=0x10", "size"},
       {"scene:hall?size=640", "size"},
-      {"scene:hall?guard=-1", "guard"},
-      {"scene:hall?guard=3,4,5", "guard"},
+      {"scene:hall?guard-band=-1", "guard-band"},
+      {"scene:hall?guard-band=3,4,5", "guard-band"},
       {"scene:hall?seed=x", "seed"},
       {"scene:hall?eye=1,2", "eye"},
       {"scene:hall?eye=nan,0,0", "eye"},

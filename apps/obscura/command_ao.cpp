@@ -41,7 +41,7 @@ double mean(const ImageView<const float>& image) {
 
 Status run_ao(const AoCommand& c, bool quiet) {
   const auto start = std::chrono::steady_clock::now();
-  MethodSettings settings;
+  AnySettings settings;
   OutputImages images;
   if (Status s = c.method.settings(&settings); !s.ok()) return s;
   if (Status s = OutputImages::parse(c.outputs, &images); !s.ok()) return s;
@@ -56,7 +56,7 @@ Status run_ao(const AoCommand& c, bool quiet) {
   if (Status s = c.input.load(layer_needs(settings), c.threads, &input); !s.ok()) return s;
   const double loaded = seconds_since(start);
 
-  const DepthField field = input.depth.field();
+  const DepthField field = input.field();
   const Outputs outputs = images.allocate(field.visible_width(), field.visible_height());
   support::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;

@@ -19,20 +19,19 @@ struct DemoCommand {
 
 Status demo_scene(const DemoCommand& c, const std::string& name, double radius_share, bool quiet) {
   const auto executor = make_executor(c.threads);
-  support::Rendering rendering;
-  const std::string spec = "scene:" + name;
-  if (Status s = support::load_scene(spec, {}, *executor, &rendering); !s.ok()) return s;
   LoadedInput input;
-  input.depth = std::move(rendering.gbuffer);
-  input.depth.name = spec;
-  const DepthField field = input.depth.field();
+  const std::string spec = "scene:" + name;
+  if (Status s = support::load_scene(spec, {}, *executor, &input.rendering); !s.ok()) return s;
+  input.rendering.gbuffer.name = spec;
+  const DepthField field = input.field();
   const int width = field.visible_width(), height = field.visible_height();
 
   LineSettings settings;
-  settings.falloff.radius = static_cast<float>(radius_share * input.depth.scene_size);
+  settings.falloff.radius = static_cast<float>(radius_share * input.depth().scene_size);
   support::Image visibility(width, height);
   visibility.add("visibility");
-  if (Status s = run_method(settings, input, c.threads, {.visibility = visibility.view(0)}, {});
+  if (Status s = run_method(MethodSettings(settings), input, c.threads,
+                            {.visibility = visibility.view(0)}, {});
       !s.ok()) {
     return s;
   }

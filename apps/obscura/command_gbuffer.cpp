@@ -19,17 +19,19 @@ struct GbufferCommand {
 Status run_gbuffer(const GbufferCommand& c, bool quiet) {
   LoadedInput input;
   if (Status s = c.input.load({}, c.threads, &input); !s.ok()) return s;
-  if (!input.scene) {
+  if (!input.rendering.scene) {
     return invalid_argument(fmt::format(
         "{} is a depth image already; gbuffer renders scenes and meshes", c.input.path()));
   }
-  if (Status s = support::write_gbuffer(c.output, input.depth, input.view, c.half); !s.ok()) {
+  if (Status s = support::write_gbuffer(c.output, input.depth(), input.rendering.view, c.half);
+      !s.ok()) {
     return s;
   }
   if (!quiet) {
-    const GuardBand& g = input.depth.guard_band;
+    const GuardBand& g = input.depth().guard_band;
     fmt::print("{}: {}x{} with a guard band of {},{} px, scene size {:.4g}\n", c.output,
-               input.view.width, input.view.height, g.left, g.top, input.depth.scene_size);
+               input.rendering.view.width, input.rendering.view.height, g.left, g.top,
+               input.depth().scene_size);
   }
   return {};
 }

@@ -4,7 +4,6 @@
 
 #include "fmt/format.h"
 #include "support/files/depth_file.h"
-#include "support/scenes/load_scene.h"
 
 namespace obscura::app {
 namespace {
@@ -22,6 +21,12 @@ void visit_fields(Self& s, Visitor&& v) {
 }
 
 }  // namespace
+
+DepthField LoadedInput::field() const {
+  DepthField field = rendering.gbuffer.field();
+  field.normal_use = normal_use;
+  return field;
+}
 
 void InputOptions::add_to(CLI::App* command) {
   command
@@ -51,25 +56,22 @@ Status InputOptions::load(const LayerNeeds& needs, int threads, LoadedInput* inp
           "--normals is '{}'; it must be auto, depth or none for a scene or mesh", use));
     }
     const auto executor = make_executor(threads);
-    support::Rendering rendering;
-    if (Status s = support::load_scene(path_, options, *executor, &rendering); !s.ok()) return s;
-    input->depth = std::move(rendering.gbuffer);
-    input->depth.name = path_;
+    support::DepthInput& gbuffer = input->rendering.gbuffer;
+    if (Status s = support::load_scene(path_, options, *executor, &input->rendering); !s.ok()) {
+      return s;
+    }
+    gbuffer.name = path_;
     if (use == "none") input->normal_use = NormalUse::kNone;
     if (use == "depth") {
-      for (auto* n : {&input->depth.normal_x, &input->depth.normal_y, &input->depth.normal_z}) {
-        n->clear();
-      }
+      for (auto* n : {&gbuffer.normal_x, &gbuffer.normal_y, &gbuffer.normal_z}) n->clear();
     }
-    input->scene = rendering.scene;
-    input->view = rendering.view;
     return {};
   }
   if (Status s = table_.refuse_others(kImages, "a depth image"); !s.ok()) return s;
   support::DepthFileOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
-  return support::load_depth_input(path_, options, &input->depth);
+  return support::load_depth_input(path_, options, &input->rendering.gbuffer);
 }
 
 }  // namespace obscura::app

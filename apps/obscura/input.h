@@ -1,22 +1,20 @@
 #ifndef OBSCURA_APPS_OBSCURA_INPUT_H_
 #define OBSCURA_APPS_OBSCURA_INPUT_H_
 
-#include <memory>
 #include <string>
 
 #include "apps/obscura/option_table.h"
-#include "support/depth_input.h"
-#include "support/rays/ray_scene.h"
-#include "support/rays/view_spec.h"
+#include "support/scenes/load_scene.h"
 
 namespace obscura::app {
 
 // A depth field, and the geometry behind it where the input was a scene or a mesh.
 struct LoadedInput {
-  support::DepthInput depth;
+  support::Rendering rendering;  // of a depth image: its G-buffer only, the scene is null
   NormalUse normal_use = NormalUse::kAuto;
-  std::shared_ptr<const support::RayScene> scene;  // null for depth images
-  support::ViewSpec view;                          // of scenes and meshes
+
+  const support::DepthInput& depth() const { return rendering.gbuffer; }
+  DepthField field() const;
 };
 
 // What a method wants rendered beside depth and normals.

@@ -3,10 +3,29 @@
 #include "fmt/format.h"
 
 namespace obscura::app {
+namespace {
+
+// Calls f with whichever settings struct it is.
+template <class Settings, class F>
+decltype(auto) visit_settings(Settings& settings, F&& f) {
+  return std::visit(
+      [&](auto& s) -> decltype(auto) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(s)>, MethodSettings>) {
+          return std::visit(f, s);
+        } else {
+          return f(s);
+        }
+      },
+      settings);
+}
+
+}  // namespace
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
+      {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",
+       support::GeometricSettings{}},
   };
   return list;
 }
@@ -26,17 +45,17 @@ void MethodOptions::add_to(CLI::App* command, const std::string& default_method)
                    fmt::format("Estimator: {} [default {}]", method_names(), default_method))
       ->type_name("NAME");
   for (const MethodEntry& m : methods()) {
-    std::visit([&](const auto& s) { table_.declare(m.name, s); }, m.defaults);
+    visit_settings(m.defaults, [&](const auto& s) { table_.declare(m.name, s); });
   }
   table_.add_to(command, "Method settings");
 }
 
-Status MethodOptions::settings(MethodSettings* settings) const {
+Status MethodOptions::settings(AnySettings* settings) const {
   for (const MethodEntry& m : methods()) {
     if (method_ != m.name) continue;
     if (Status s = table_.refuse_others(method_, "--method " + method_); !s.ok()) return s;
-    MethodSettings result = m.defaults;
-    const Status status = std::visit([&](auto& s) { return table_.read(&s); }, result);
+    AnySettings result = m.defaults;
+    const Status status = visit_settings(result, [&](auto& s) { return table_.read(&s); });
     if (status.ok()) *settings = std::move(result);
     return status;
   }
@@ -44,45 +63,52 @@ Status MethodOptions::settings(MethodSettings* settings) const {
       fmt::format("--method is '{}'; it must be one of {}", method_, method_names()));
 }
 
-LayerNeeds layer_needs(const MethodSettings& settings) {
-  return std::visit(
-      [](const auto& s) {
-        const Occluder& o = s.occluder;
-        return LayerNeeds{.back_depth = o.kind == OccluderKind::kBackDepth,
-                          .layers = o.kind == OccluderKind::kLayers ? o.layers : 0};
-      },
-      settings);
+LayerNeeds layer_needs(const AnySettings& settings) {
+  return visit_settings(settings, [](const auto& s) {
+    LayerNeeds needs;
+    if constexpr (requires { s.occluder; }) {
+      needs.back_depth = s.occluder.kind == OccluderKind::kBackDepth;
+      needs.layers = s.occluder.kind == OccluderKind::kLayers ? s.occluder.layers : 0;
+    }
+    return needs;
+  });
 }
 
-Status run_method(const MethodSettings& settings, const LoadedInput& input, int threads,
+Status run_method(const AnySettings& settings, const LoadedInput& input, int threads,
                   const Outputs& outputs, const RunOptions& options) {
-  DepthField field = input.depth.field();
-  field.normal_use = input.normal_use;
+  if (const auto* geometric = std::get_if<support::GeometricSettings>(&settings)) {
+    if (!input.rendering.scene) {
+      return invalid_argument(fmt::format(
+          "--method geometric needs a scene or mesh; {} is a depth image", input.depth().name));
+    }
+    const auto executor = make_executor(threads);
+    RunOptions with_threads = options;
+    with_threads.executor = executor.get();
+    return support::trace_geometric(input.rendering, *geometric, outputs, with_threads);
+  }
   Estimator estimator;
-  Status status =
-      Estimator::create(settings, input.depth.width, input.depth.height, threads, &estimator);
-  if (status.ok()) status = estimator.run(field, outputs, options);
+  Status status = Estimator::create(std::get<MethodSettings>(settings), input.depth().width,
+                                    input.depth().height, threads, &estimator);
+  if (status.ok()) status = estimator.run(input.field(), outputs, options);
   // The library knows no file names.
   if (status.code() == StatusCode::kInvalidInput) {
-    return {status.code(), fmt::format("{}: {}", input.depth.name, status.message())};
+    return {status.code(), fmt::format("{}: {}", input.depth().name, status.message())};
   }
   return status;
 }
 
-nlohmann::ordered_json to_json(const MethodSettings& settings) {
+nlohmann::ordered_json to_json(const AnySettings& settings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  std::visit(
-      [&](const auto& s) {
-        visit_fields(s, [&](const auto& value, const Field& field) {
-          using T = std::remove_cvref_t<decltype(value)>;
-          if constexpr (std::is_arithmetic_v<T>) {
-            json[field.name] = value;
-          } else {
-            json[field.name] = write_setting(value);
-          }
-        });
-      },
-      settings);
+  visit_settings(settings, [&](const auto& s) {
+    visit_fields(s, [&](const auto& value, const Field& field) {
+      using T = std::remove_cvref_t<decltype(value)>;
+      if constexpr (std::is_arithmetic_v<T>) {
+        json[field.name] = value;
+      } else {
+        json[field.name] = write_setting(value);
+      }
+    });
+  });
   return json;
 }
 
@@ -95,15 +121,13 @@ std::string settings_markdown() {
     out += fmt::format("\n## {}\n\n{}.\n\n| field | meaning | value | unit | default |\n", m.name,
                        m.summary);
     out += "|---|---|---|---|---|\n";
-    std::visit(
-        [&](const auto& s) {
-          visit_fields(s, [&](const auto& value, const Field& field) {
-            using T = std::remove_cvref_t<decltype(value)>;
-            out += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.name, field.help,
-                               expected_text<T>(field), field.unit, write_setting(value));
-          });
-        },
-        m.defaults);
+    visit_settings(m.defaults, [&](const auto& s) {
+      visit_fields(s, [&](const auto& value, const Field& field) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        out += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.name, field.help,
+                           expected_text<T>(field), field.unit, write_setting(value));
+      });
+    });
   }
   return out;
 }

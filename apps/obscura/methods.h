@@ -2,22 +2,27 @@
 #define OBSCURA_APPS_OBSCURA_METHODS_H_
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "apps/obscura/input.h"
 #include "apps/obscura/option_table.h"
 #include "nlohmann/json.hpp"
 #include "obscura/estimator.h"
+#include "support/reference/geometric.h"
 
 namespace obscura::app {
 
 inline constexpr const char* kDefaultMethod = "line";
 
+// The library's methods and the truth on the real geometry, which needs a scene or mesh.
+using AnySettings = std::variant<MethodSettings, support::GeometricSettings>;
+
 // Every method that --method can name, with its settings at their defaults.
 struct MethodEntry {
   const char* name;
   const char* summary;
-  MethodSettings defaults;
+  AnySettings defaults;
 };
 const std::vector<MethodEntry>& methods();
 std::string method_names();
@@ -31,7 +36,7 @@ class MethodOptions {
   const std::string& method() const { return method_; }
 
   // The chosen method's settings with the options that were given.
-  Status settings(MethodSettings* settings) const;
+  Status settings(AnySettings* settings) const;
 
  private:
   std::string method_;
@@ -39,14 +44,14 @@ class MethodOptions {
 };
 
 // What the method reads beside depth and normals.
-LayerNeeds layer_needs(const MethodSettings& settings);
+LayerNeeds layer_needs(const AnySettings& settings);
 
 // Runs any method on a loaded input.
-Status run_method(const MethodSettings& settings, const LoadedInput& input, int threads,
+Status run_method(const AnySettings& settings, const LoadedInput& input, int threads,
                   const Outputs& outputs, const RunOptions& options);
 
 // Settings as JSON, field by field.
-nlohmann::ordered_json to_json(const MethodSettings& settings);
+nlohmann::ordered_json to_json(const AnySettings& settings);
 
 // docs/settings.md.
 std::string settings_markdown();

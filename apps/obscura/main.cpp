@@ -46,6 +46,18 @@ int run(int argc, char** argv) {
   add_demo(app);
   add_bench(app);
   add_settings(app);
+  bool known = argc < 2 || argv[1][0] == '-';
+  std::string names;
+  for (const CLI::App* command : app.cli.get_subcommands({})) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+    known = known || command->get_name() == argv[1];
+  }
+  if (argc < 2 || !known) {
+    return fail(argc < 2
+                    ? "say what to do; the commands are " + names
+                    : fmt::format("there is no command '{}'; the commands are {}", argv[1], names),
+                kBadUsage);
+  }
   try {
     app.cli.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -39,7 +39,7 @@ class Executor {
   virtual void parallel_for(int count, FunctionRef<void(int index, int worker)> body) = 0;
 };
 
-// `threads` from 1; 0 takes every processor that this process may use.
+// `threads` from 1, at most one per processor that this process may use; 0 takes them all.
 std::unique_ptr<Executor> make_executor(int threads = 0);
 
 }  // namespace obscura

@@ -1,3 +1,4 @@
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,7 +11,8 @@ namespace {
 
 class TbbExecutor final : public Executor {
  public:
-  explicit TbbExecutor(int threads) : arena_(threads) {}
+  // More threads than processors would only wait for each other.
+  explicit TbbExecutor(int threads) : arena_(std::min(threads, tbb::info::default_concurrency())) {}
 
   int thread_count() const override { return arena_.max_concurrency(); }
 
@@ -35,7 +37,7 @@ class TbbExecutor final : public Executor {
 }  // namespace
 
 std::unique_ptr<Executor> make_executor(int threads) {
-  return std::make_unique<TbbExecutor>(threads > 0 ? threads : int{tbb::task_arena::automatic});
+  return std::make_unique<TbbExecutor>(threads > 0 ? threads : tbb::info::default_concurrency());
 }
 
 }  // namespace obscura

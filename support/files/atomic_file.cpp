@@ -87,11 +87,21 @@ Status write_text(const std::string& path, std::string_view bytes) {
   });
 }
 
-Status read_bytes(const std::string& path, std::string* bytes, std::size_t limit) {
+Status check_readable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return invalid_input(fmt::format("cannot read {}: it is a folder", path));
   }
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) return invalid_input(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  const bool empty = std::fgetc(file) == EOF;
+  std::fclose(file);
+  if (empty) return invalid_input(fmt::format("cannot read {}: the file is empty", path));
+  return {};
+}
+
+Status read_bytes(const std::string& path, std::string* bytes, std::size_t limit) {
+  if (Status s = check_readable(path); !s.ok()) return s;
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) return invalid_input(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
   bytes->clear();

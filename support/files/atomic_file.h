@@ -18,7 +18,10 @@ Status write_atomically(const std::string& path,
 // The same for bytes in memory.
 Status write_text(const std::string& path, std::string_view bytes);
 
-// The whole content of a file of at most `limit` bytes.
+// Whether a file can be read; it must exist, be no folder and not be empty.
+Status check_readable(const std::string& path);
+
+// The whole content of a file that is not empty and has at most `limit` bytes.
 Status read_bytes(const std::string& path, std::string* bytes,
                   std::size_t limit = std::size_t{1} << 34);
 

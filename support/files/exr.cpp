@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "fmt/format.h"
+#include "support/files/atomic_file.h"
 
 namespace obscura::support {
 namespace {
@@ -86,6 +87,7 @@ Status check_plausible(const std::string& path, const ExrHeader& h, std::size_t 
 // Runs what may throw; every exception of OpenEXR ends here.
 template <class F>
 Status guarded(const std::string& path, F&& f) {
+  if (Status s = check_readable(path); !s.ok()) return s;
   try {
     return f();
   } catch (const std::bad_alloc&) {

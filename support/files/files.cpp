@@ -71,16 +71,15 @@ Status read_image(const std::string& path, Image* image) {
     return invalid_input(fmt::format(
         "{}: unknown kind of image; its ending must be .exr, .pfm, .png or .hdr", path));
   }
+  if (ending == ".exr") {
+    ExrHeader header;
+    return read_exr(path, {}, &header, image);
+  }
   std::string bytes;
-  // For EXR only the first bytes, to report a missing file as for the others.
   if (Status s = read_bytes(path, &bytes); !s.ok()) return s;
-  if (bytes.empty()) return invalid_input(fmt::format("{}: the file is empty", path));
   if (ending == ".pfm") return decode_pfm(bytes, path, image);
   if (ending == ".png") return decode_png(bytes, path, image);
-  if (ending == ".hdr") return decode_hdr(bytes, path, image);
-  bytes = {};
-  ExrHeader header;
-  return read_exr(path, {}, &header, image);
+  return decode_hdr(bytes, path, image);
 }
 
 Status check_image_ending(const std::string& path) {

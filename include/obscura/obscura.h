@@ -16,5 +16,6 @@
 #include "obscura/status.h"
 #include "obscura/version.h"
 #include "obscura/views.h"
+#include "obscura/volume.h"
 
 #endif  // OBSCURA_OBSCURA_H_

@@ -24,6 +24,7 @@ decltype(auto) visit_settings(Settings& settings, F&& f) {
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
+      {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},
       {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",
        support::GeometricSettings{}},
   };

@@ -7,12 +7,13 @@
 #include "obscura/depth_field.h"
 #include "obscura/line.h"
 #include "obscura/outputs.h"
+#include "obscura/reference.h"
 #include "obscura/status.h"
 
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings = std::variant<LineSettings>;
+using MethodSettings = std::variant<LineSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

@@ -14,6 +14,7 @@
 #include "obscura/line.h"
 #include "obscura/occluder.h"
 #include "obscura/outputs.h"
+#include "obscura/reference.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 #include "obscura/version.h"

@@ -7,6 +7,7 @@
 #include "screen/blurred.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
+#include "screen/reference/reference.h"
 
 namespace obscura {
 namespace {
@@ -15,6 +16,10 @@ Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>*
   if (Status status = make_line(s, m); !status.ok()) return status;
   if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
   return {};
+}
+
+Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {
+  return make_reference(s, m);
 }
 
 template <class T>

@@ -17,16 +17,6 @@ struct EnumNames<RayWeighting> {
   static constexpr const char* names[] = {"cosine", "uniform"};
 };
 
-// What pixels hold that were not traced themselves.
-enum class SubsetFill {
-  kNan,
-  kInterpolate,  // from the nearest traced pixels, those of like depth first
-};
-template <>
-struct EnumNames<SubsetFill> {
-  static constexpr const char* names[] = {"nan", "interpolate"};
-};
-
 // The truth that a depth image holds: rays over each pixel's hemisphere, traced without a step size
 // against the depth field itself (docs/methods/reference.md says what surface that is). Slow, and
 // unbiased: two seeds differ only by the standard error, which can be had as an output.
@@ -36,9 +26,9 @@ struct ReferenceSettings {
   int rays = 1024;                                 // per pixel and weighting
   RayWeighting weighting = RayWeighting::kCosine;  // of `visibility` and `standard_error`
   int every = 1;                                   // trace every n-th pixel of every n-th row
-  SubsetFill fill = SubsetFill::kNan;
+  bool interpolate = false;                        // fill the others from them; else they are NaN
   float beyond_border = 0;  // world units; 0: rays that leave the image see nothing
-  float offset = 0;  // pixels; 0: 0.001 towards the camera, or 3 along the normal unless solid
+  float offset_px = 0;  // pixels; 0: 0.001 towards the camera, or 3 along the normal unless solid
   std::uint32_t seed = 1;
 };
 template <FieldsOf<ReferenceSettings> Self, class Visitor>
@@ -48,15 +38,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.rays, Field{"rays", "rays per pixel", closed(1, 1 << 20),
                   "Rays for each weighting that the outputs need."});
   v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
-  v(s.every, Field{"every", "pixels", closed(1, 1024),
-                   "Trace every n-th pixel of every n-th row, from n/2."});
-  v(s.fill, Field{"fill", "", {}, "What the pixels between traced ones hold."});
+  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace every N-th pixel in x and y only."});
+  v(s.interpolate, Field{"interpolate", "", {}, "Fill the pixels between; else they are NaN."});
   v(s.beyond_border, Field{"beyond_border", "world units", at_least(0),
                            "A ray that leaves the image is blocked this far beyond its border; 0: "
                            "never."});
-  v(s.offset, Field{"offset", "pixels", closed(0, 64),
-                    "Distance of the rays' start from the surface, towards the camera for solid "
-                    "occluders and along the normal for others; 0: 0.001 and 3."});
+  v(s.offset_px, Field{"offset_px", "pixels", closed(0, 64),
+                       "Distance of the rays' start from the surface, towards the camera for solid "
+                       "occluders and along the normal for others; 0: 0.001 and 3."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
 

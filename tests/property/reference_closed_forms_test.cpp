@@ -83,7 +83,8 @@ Scene bowl(double cap) {
   auto truth = [=](double x, double y) {
     return x * x + y * y < 0.8 * rim * rim ? 1 - cap / 2 : std::nan("");
   };
-  return reference_scenes::from_above(257, GuardBand::symmetric(20, 20), height, truth);
+  // The surface meets the rim's plane half a pixel too far out on average: small pixels.
+  return reference_scenes::from_above(769, GuardBand::symmetric(30, 30), height, truth);
 }
 
 TEST(ReferenceClosedForms, Groove) {
@@ -100,7 +101,7 @@ TEST(ReferenceClosedForms, Bump) { EXPECT_AGREES(difference(bump(321), endless(4
 TEST(ReferenceClosedForms, Bowl) {
   for (const double cap : {0.3, 0.6}) {
     SCOPED_TRACE(cap);
-    EXPECT_AGREES(difference(bowl(cap), endless(4096, 31)));
+    EXPECT_AGREES(difference(bowl(cap), endless(4096, 93)));
   }
 }
 

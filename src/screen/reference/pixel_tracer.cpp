@@ -17,7 +17,9 @@ std::uint32_t mix(std::uint32_t h, std::uint32_t v) {
   return h ^ (h >> 16);
 }
 
-int slab_count(int rays, int max_slabs) { return std::clamp(rays / 2 / kRaysPerSlab, 1, max_slabs); }
+int slab_count(int rays, int max_slabs) {
+  return std::clamp(rays / 2 / kRaysPerSlab, 1, max_slabs);
+}
 
 // Two directions that make a right-handed frame with the normal (Duff et al. 2017).
 void make_frame(Receiver* r) {
@@ -48,7 +50,7 @@ Receiver make_receiver(const PixelTracer::Frame& f, Pixel pixel) {
       std::sqrt(static_cast<double>(c.scale_x) * c.scale_y) * (c.orthographic ? 1 : z);
   const bool boxes = f.scene->boxes;
   const double pixels =
-      f.settings->offset > 0 ? f.settings->offset : (boxes ? kMatterOffset : kSurfaceOffset);
+      f.settings->offset_px > 0 ? f.settings->offset_px : (boxes ? kMatterOffset : kSurfaceOffset);
   double offset = pixels * pixel_size;
   // A step out of the surface by `offset`: along the normal, or along the view ray, which leaves
   // the pixel where it is. Never farther than half way to the camera.

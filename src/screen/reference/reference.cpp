@@ -70,7 +70,7 @@ class ReferenceMethod final : public Method {
     subset.choose(&pixels_);
     Progress progress(static_cast<std::int64_t>(pixels_.size()), context.progress);
     trace(frame, outputs, context.executor, &progress);
-    if (settings_.fill == SubsetFill::kNan) {
+    if (!settings_.interpolate) {
       subset.fill_with_nan(outputs, context.executor);
     } else if (!progress.cancelled()) {
       // Pixels without a traced one near them are traced after all.

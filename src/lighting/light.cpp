@@ -66,6 +66,7 @@ Status for_rows(int width, int height, int scratch_rows, const RunOptions& optio
   if (!options.executor) own = make_executor();
   Executor& executor = options.executor ? *options.executor : *own;
   std::vector<Rows> scratch;
+  scratch.reserve(executor.thread_count());
   for (int k = 0; k < executor.thread_count(); ++k) scratch.emplace_back(width, scratch_rows);
   Progress progress(height, options.progress);
   executor.parallel_for(height, [&](int y, int worker) {

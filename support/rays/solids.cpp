@@ -125,13 +125,10 @@ void find_solids(Mesh* mesh) {
     }
     const double volume = signed_volume(*mesh, first, kept.size() - first);
     const double cube = std::pow(bounds.longest_side(), 3);
-    if (!(std::abs(volume) > 1e-9 * cube)) {
+    if (!(volume > 1e-9 * cube)) {
       flat.insert(flat.end(), kept.begin() + std::ptrdiff_t(first), kept.end());
       kept.resize(first);
       continue;
-    }
-    if (volume < 0) {
-      for (std::size_t k = first; k < kept.size(); ++k) std::swap(kept[k].b, kept[k].c);
     }
     mesh->parts.push_back({first, kept.size() - first, true});
   }

@@ -56,7 +56,7 @@ Status check_faces(const std::string& path, const aiScene& scene) {
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] < mesh.mNumVertices) continue;
         return invalid_input(fmt::format("{}: face {} names vertex {} of {}", path, i,
-                                         face.mIndices[k], mesh.mNumVertices));
+                                         int(face.mIndices[k]), mesh.mNumVertices));
       }
     }
   }

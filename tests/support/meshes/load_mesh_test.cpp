@@ -175,7 +175,7 @@ TEST_F(LoadMesh, DegenerateTrianglesDoNoHarm) {
                       "v 3 0 0\nv 4 0 0\nv 5 0 0\nf 9 10 11\nf 9 9 9\nv 4 1e-30 0\nf 9 10 12\n");
   MeshOptions options;
   options.view.size = {48, 32};
-  options.view.guard = {false, 0, 0};
+  options.view.guard_band = {false, 0, 0};
   options.view.layers = 2;
   Rendering r;
   const Status status = load_mesh(path, options, *make_executor(), &r);
@@ -240,7 +240,7 @@ TEST_F(LoadMesh, DefaultViewFramesTheMesh) {
     for (bool orthographic : {false, true}) {
       MeshOptions options;
       options.view.size = size;
-      options.view.guard = {false, 0, 0};
+      options.view.guard_band = {false, 0, 0};
       if (orthographic) options.view.ortho_height = size.width > size.height ? 1.8 : 3.6;
       Rendering r;
       ASSERT_TRUE(load_mesh(path, options, *make_executor(), &r).ok());

@@ -1,60 +1,117 @@
-// obscura demo: two scenes, each with depth, normals and visibility as pictures.
+// obscura demo: two scenes, each by a fast method and by the truth, with the error between them.
+#include <chrono>
 #include <filesystem>
 #include <memory>
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/methods.h"
+#include "apps/obscura/output.h"
 #include "fmt/format.h"
 #include "support/files/files.h"
+#include "support/metrics/compare.h"
 #include "support/pictures/pictures.h"
+#include "support/progress/progress_bar.h"
 #include "support/scenes/load_scene.h"
 
 namespace obscura::app {
 namespace {
 
+constexpr int kTruthRays = 64;
+
 struct DemoCommand {
-  std::string folder = "demo";
+  std::string folder = "demo", json;
   int threads = 0;
 };
 
-Status demo_scene(const DemoCommand& c, const std::string& name, double radius_share, bool quiet) {
+// Visibility of an input by one method, and the seconds it took.
+struct Run {
+  support::Image image;
+  double seconds = 0;
+
+  ImageView<const float> view() const { return image.view(0); }
+};
+
+Status run_timed(const std::string& label, const AnySettings& settings, const LoadedInput& input,
+                 int threads, bool quiet, Run* run) {
+  const DepthField field = input.field();
+  run->image = support::Image(field.visible_width(), field.visible_height());
+  run->image.add("visibility");
+  support::ProgressBar bar(label, !quiet);
+  const auto start = std::chrono::steady_clock::now();
+  const Status status =
+      run_method(settings, input, threads, {.visibility = run->image.view(0)},
+                 {.executor = nullptr, .progress = [&bar](double share) { return bar(share); }});
+  run->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return status;
+}
+
+Status write_pictures(const DemoCommand& c, const std::string& name, const DepthField& field,
+                      const Run& method, const Run& truth) {
+  auto visible = [&](const ImageView<const float>& v) {
+    return ImageView<const float>(&v(field.guard_band.left, field.guard_band.top),
+                                  field.visible_width(), field.visible_height(), v.row_stride);
+  };
+  const auto mask = visible(field.depth);
+  const support::Image depth = support::depth_picture(mask);
+  const support::Image normals = support::vector_picture(
+      {visible(field.normals.x), visible(field.normals.y), visible(field.normals.z)});
+  const support::Image fast = support::grey_picture(method.view());
+  const support::Image traced = support::grey_picture(truth.view());
+  const support::Image error = support::error_picture(method.view(), truth.view(), mask);
+  const support::Image comparison = support::beside(
+      {{fmt::format("{}, {:.2f} s", kDefaultMethod, method.seconds), fast},
+       {fmt::format("ray-traced truth, {} rays, {:.2f} s", kTruthRays, truth.seconds), traced},
+       {"difference: white 0 %, black 20 % and more", error}});
+  const std::pair<const char*, const support::Image*> pictures[] = {
+      {"depth", &depth},  {"normals", &normals}, {"visibility", &fast},
+      {"truth", &traced}, {"error", &error},     {"comparison", &comparison}};
+  for (const auto& [what, picture] : pictures) {
+    const std::string path = fmt::format("{}/{}-{}.png", c.folder, name, what);
+    if (Status s = support::write_image(path, *picture); !s.ok()) return s;
+  }
+  return {};
+}
+
+// `length` is the falloff's, as a share of the scene size.
+Status demo_scene(const DemoCommand& c, const std::string& name, double length, bool quiet,
+                  support::Report* report) {
   const auto executor = make_executor(c.threads);
   LoadedInput input;
   const std::string spec = "scene:" + name;
   if (Status s = support::load_scene(spec, {}, *executor, &input.rendering); !s.ok()) return s;
   input.rendering.gbuffer.name = spec;
   const DepthField field = input.field();
-  const int width = field.visible_width(), height = field.visible_height();
 
-  LineSettings settings;
-  settings.falloff.radius = static_cast<float>(radius_share * input.depth().scene_size);
-  support::Image visibility(width, height);
-  visibility.add("visibility");
-  if (Status s = run_method(MethodSettings(settings), input, c.threads,
-                            {.visibility = visibility.view(0)}, {});
-      !s.ok()) {
-    return s;
+  // The same falloff for both, whichever method is the default one.
+  const auto radius = static_cast<float>(length * input.depth().scene_size);
+  AnySettings fast = default_settings(kDefaultMethod);
+  set_radius(radius, &fast);
+  ReferenceSettings reference{.rays = kTruthRays};
+  reference.falloff.radius = radius;
+  Run method, truth;
+  Status s = run_timed(name, fast, input, c.threads, quiet, &method);
+  if (s.ok()) {
+    s = run_timed(name + ", truth", MethodSettings(reference), input, c.threads, quiet, &truth);
   }
+  if (s.ok()) s = write_pictures(c, name, field, method, truth);
+  if (!s.ok()) return s;
 
-  auto visible = [&](const ImageView<const float>& v) {
-    return ImageView<const float>(&v(field.guard_band.left, field.guard_band.top), width, height,
-                                  v.row_stride);
-  };
-  const support::Image depth = support::depth_picture(visible(field.depth));
-  const support::Image normals = support::vector_picture(
-      {visible(field.normals.x), visible(field.normals.y), visible(field.normals.z)});
-  const support::Image grey = support::grey_picture(visibility.view(0));
-  const std::pair<const char*, const support::Image*> pictures[] = {
-      {"depth", &depth}, {"normals", &normals}, {"visibility", &grey}};
-  for (const auto& [what, picture] : pictures) {
-    const std::string path = fmt::format("{}/{}-{}.png", c.folder, name, what);
-    if (Status s = support::write_image(path, *picture); !s.ok()) return s;
-  }
-  double sum = 0;
-  for (float v : visibility.channels[0].values) sum += v;
+  support::Comparison r;
+  const ImageView<const float> mask(&field.depth(field.guard_band.left, field.guard_band.top),
+                                    field.visible_width(), field.visible_height(),
+                                    field.depth.row_stride);
+  if (s = support::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
+  report->add(name, "time", 1e3 * method.seconds, "ms");
+  report->add(name, "time of the truth", 1e3 * truth.seconds, "ms");
+  report->add(name, "e_A", r.e_a, "%");
+  report->add(name, "e_<5%", r.within_5, "%");
+  report->add(name, "bias", r.bias, "%");
   if (!quiet) {
-    fmt::print("{}: {}x{}, radius {:.3g}, mean visibility {:.3f}: {}/{}-*.png\n", name, width,
-               height, settings.falloff.radius, sum / (width * height), c.folder, name);
+    fmt::print(
+        "{}: {}x{}, falloff length {:.3g}: {} {:.2f} s, truth {:.2f} s, e_A {:.2f} %, "
+        "e_<5% {:.1f} %, bias {:+.2f} %: {}/{}-*.png\n",
+        name, field.visible_width(), field.visible_height(), radius, kDefaultMethod, method.seconds,
+        truth.seconds, r.e_a, r.within_5, r.bias, c.folder, name);
   }
   return {};
 }
@@ -66,8 +123,11 @@ Status run_demo(const DemoCommand& c, bool quiet) {
     return {StatusCode::kInternal,
             fmt::format("cannot make the folder {}: {}", c.folder, error.message())};
   }
-  if (Status s = demo_scene(c, "hall", 0.05, quiet); !s.ok()) return s;
-  return demo_scene(c, "meadow", 0.05, quiet);
+  support::Report report;
+  report.settings = {{"method", kDefaultMethod}, {"rays", kTruthRays}, {"size", "640x360"}};
+  if (Status s = demo_scene(c, "hall", 0.1, quiet, &report); !s.ok()) return s;
+  if (Status s = demo_scene(c, "meadow", 0.05, quiet, &report); !s.ok()) return s;
+  return write_json(report, c.json);
 }
 
 }  // namespace
@@ -81,6 +141,8 @@ void add_demo(App& app) {
   command->add_option("-o,--output", c->folder, "Folder for the pictures [default demo]")
       ->type_name("FOLDER");
   add_threads_option(command, &c->threads);
+  command->add_option("--json", c->json, "Write the figures as JSON; - is standard output")
+      ->type_name("FILE");
 }
 
 }  // namespace obscura::app

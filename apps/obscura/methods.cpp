@@ -39,6 +39,17 @@ std::string method_names() {
   return names;
 }
 
+AnySettings default_settings(const std::string& method) {
+  for (const MethodEntry& m : methods()) {
+    if (method == m.name) return m.defaults;
+  }
+  return {};
+}
+
+void set_radius(float radius, AnySettings* settings) {
+  visit_settings(*settings, [&](auto& s) { s.falloff.radius = radius; });
+}
+
 void MethodOptions::add_to(CLI::App* command, const std::string& default_method) {
   method_ = default_method;
   command

@@ -27,6 +27,10 @@ struct MethodEntry {
 const std::vector<MethodEntry>& methods();
 std::string method_names();
 
+// Settings of a method in the list at their defaults, and a way to set their falloff's length.
+AnySettings default_settings(const std::string& method);
+void set_radius(float radius, AnySettings* settings);
+
 // The options of all methods.
 class MethodOptions {
  public:

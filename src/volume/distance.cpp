@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "core/progress.h"
+#include "core/text.h"
+#include "volume/distance_kernel.h"
+#include "volume/distance_start.h"
+#include "volume/volume_access.h"
+
+namespace obscura {
+namespace {
+
+constexpr int kMaxSweeps = 800;
+
+bool cuts(const DistanceSettings& settings, const VolumeRange& range) {
+  // A value equal to the isovalue is solid.
+  return settings.solid == SolidSide::kAbove
+             ? range.min < settings.isovalue && settings.isovalue <= range.max
+             : range.min <= settings.isovalue && settings.isovalue < range.max;
+}
+
+// One round of eight sweeps: along z and back, with two sweeps of each plane in either of two
+// stages. A stage needs only its own previous plane, so the second runs one plane behind the first.
+bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& second,
+                 Executor& executor, Progress& progress) {
+  const auto stride = distance.strides();
+  const int depth = distance.size[2];
+  for (const bool rising : {true, false}) {
+    first.begin_pass();
+    second.begin_pass();
+    auto sweep = [&](DistanceStage& stage, int k) {
+      if (k < 0 || k >= depth) return;
+      const int z = rising ? k : depth - 1 - k;
+      stage.sweep(distance.data + z * stride[2], stride[0], stride[1]);
+    };
+    for (int k = 0; k <= depth; ++k) {
+      if (executor.thread_count() > 1) {
+        executor.parallel_for(2,
+                              [&](int i, int) { i == 0 ? sweep(first, k) : sweep(second, k - 1); });
+      } else {
+        sweep(second, k - 1);
+        sweep(first, k);
+      }
+      if (!progress.advance()) return false;
+    }
+  }
+  return true;
+}
+
+Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridView<float> distance,
+             const VolumeRun& run, DistanceReport* report) {
+  std::unique_ptr<Executor> own;
+  if (!run.executor) own = make_executor();
+  Executor& executor = run.executor ? *run.executor : *own;
+  DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false);
+  DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true);
+
+  std::int64_t solid, open;
+  start_distance(volume, settings, distance, executor, &solid, &open);
+  const int rounds = (settings.sweeps + 7) / 8;
+  const int most = settings.converge ? kMaxSweeps / 8 : rounds;
+  Progress progress(static_cast<std::int64_t>(rounds) * 2 * (volume.size[2] + 1), run.progress);
+  DistanceReport done;
+  for (int round = 0; round < most && !done.converged; ++round) {
+    if (!sweep_round(distance, first, second, executor, progress)) {
+      return {StatusCode::kCancelled, "the distance sweep was cancelled by the caller"};
+    }
+    done.sweeps += 8;
+    const bool changed = int{first.take_changed()} + int{second.take_changed()} > 0;
+    done.converged = settings.converge && round + 1 >= rounds && !changed;
+  }
+  if (report) *report = done;
+  return {};
+}
+
+}  // namespace
+
+Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
+                      GridView<float> distance, const VolumeRun& run, DistanceReport* report) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (Status s = validate(volume); !s.ok()) return s;
+  if (Status s = validate_grid("distance", distance.data, distance.size, volume.spacing); !s.ok()) {
+    return s;
+  }
+  if (distance.size != volume.size) {
+    return invalid_input(text("distance.size is ", distance.size[0], "x", distance.size[1], "x",
+                              distance.size[2], "; it must be the volume's, ", volume.size[0], "x",
+                              volume.size[1], "x", volume.size[2]));
+  }
+  VolumeRange range;
+  if (Status s = volume_range(volume, &range); !s.ok()) return s;
+  if (!cuts(settings, range)) {
+    return invalid_argument(text("isovalue is ", settings.isovalue,
+                                 ", which does not cut the volume; its values go from ", range.min,
+                                 " to ", range.max));
+  }
+  try {
+    return sweep(volume, settings, distance, run, report);
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, "out of memory in the distance sweep; use a smaller volume"};
+  }
+}
+
+}  // namespace obscura

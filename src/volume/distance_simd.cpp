@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "volume/distance_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "volume/distance_simd.cpp"
+#include "hwy/foreach_target.h"
+// After foreach_target.
+#include "hwy/highway.h"
+#include "volume/transpose-inl.h"
+
+#ifndef OBSCURA_DISTANCE_SIMD_ONCE
+#define OBSCURA_DISTANCE_SIMD_ONCE
+namespace obscura {
+// What the kernel sees of a stage.
+struct DistancePlane {
+  float* grid;
+  std::ptrdiff_t stride_x, stride_y;
+  int width, height;
+  float spacing[3];
+  bool mirrored;
+  int strips, steps;
+  std::ptrdiff_t row_pitch;
+  float *plane, *before, *rows;
+};
+}  // namespace obscura
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace obscura {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+constexpr int kLanes = HWY_LANES(float) < 16 ? HWY_LANES(float) : 16;
+// Strips swept at the same time, each a little behind the one before it: a vector's update waits
+// for the one before it, and four independent ones hide that.
+constexpr int kTogether = 4;
+
+// |grad D| = 1 by one-sided differences, the smallest neighbour subtracted first, which keeps the
+// quadratic from cancelling (equation 1). Returns the estimate less `least`.
+template <bool kCubic>
+class Quadratic;
+
+template <>
+class Quadratic<true> {
+ public:
+  explicit Quadratic(const float spacing[3]) : h_(spacing[0]) {}
+  HWY_INLINE V operator()(V a, V b, V c, V least) const {
+    const D d;
+    const V h = hn::Set(d, h_), h2 = hn::Mul(h, h);
+    const V low = hn::Min(a, b), high = hn::Max(a, b);
+    const V middle = hn::Max(low, hn::Min(high, c)), most = hn::Max(high, c);
+    // A middle neighbour farther than h takes no part, and none is the same as one at h.
+    const V e1 = hn::Min(hn::Sub(middle, least), h);
+    const V e2 = hn::Sub(most, least);
+    const V between = hn::Sub(e2, e1);
+    // The third takes part where the solution from two exceeds it.
+    const M three = hn::Lt(hn::MulAdd(e2, e2, hn::Mul(between, between)), h2);
+    const V sum = hn::Add(e1, e2), squares = hn::MulAdd(e1, e1, hn::MulSub(e2, e2, h2));
+    const V root2 = hn::NegMulAdd(e1, e1, hn::Add(h2, h2));
+    const V root3 = hn::NegMulAdd(hn::Set(d, 3.0f), squares, hn::Mul(sum, sum));
+    const V root = hn::Sqrt(hn::Max(hn::IfThenElse(three, root3, root2), hn::Zero(d)));
+    const V numerator = hn::Add(hn::IfThenElse(three, sum, e1), root);
+    return hn::Mul(numerator, hn::IfThenElse(three, hn::Set(d, 1.0f / 3), hn::Set(d, 0.5f)));
+  }
+
+ private:
+  float h_;
+};
+
+template <>
+class Quadratic<false> {
+ public:
+  explicit Quadratic(const float spacing[3]) {
+    for (int a = 0; a < 3; ++a) {
+      h_[a] = spacing[a];
+      w_[a] = 1 / (spacing[a] * spacing[a]);
+    }
+  }
+  HWY_INLINE V operator()(V a, V b, V c, V least) const {
+    const D d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    V wa = hn::Set(d, w_[0]), wb = hn::Set(d, w_[1]), wc = hn::Set(d, w_[2]);
+    const V h =
+        hn::IfThenElse(hn::Eq(a, least), hn::Set(d, h_[0]),
+                       hn::IfThenElse(hn::Eq(b, least), hn::Set(d, h_[1]), hn::Set(d, h_[2])));
+    Order(a, wa, b, wb);
+    Order(b, wb, c, wc);
+    Order(a, wa, b, wb);
+    const V e1 = hn::Min(hn::Sub(b, least), h), e2 = hn::Sub(c, least);
+    const V between = hn::Sub(e2, e1);
+    const M three =
+        hn::Lt(hn::MulAdd(wa, hn::Mul(e2, e2), hn::Mul(wb, hn::Mul(between, between))), one);
+    const V w3 = hn::IfThenElse(three, wc, zero), x3 = hn::IfThenElse(three, e2, zero);
+    const V square = hn::Add(hn::Add(wa, wb), w3);
+    const V linear = hn::MulAdd(w3, x3, hn::Mul(wb, e1));
+    const V constant = hn::MulAdd(w3, hn::Mul(x3, x3), hn::MulSub(wb, hn::Mul(e1, e1), one));
+    const V root = hn::Max(hn::MulSub(linear, linear, hn::Mul(square, constant)), zero);
+    return hn::Div(hn::Add(linear, hn::Sqrt(root)), square);
+  }
+
+ private:
+  static HWY_INLINE void Order(V& a, V& wa, V& b, V& wb) {
+    const M swap = hn::Gt(a, b);
+    const V low = hn::Min(a, b), w = hn::IfThenElse(swap, wb, wa);
+    b = hn::Max(a, b);
+    wb = hn::IfThenElse(swap, wa, wb);
+    a = low;
+    wa = w;
+  }
+  float h_[3], w_[3];
+};
+
+// [edge's last lane, v0, v1, ...] or, backward, [v1, ..., edge's first lane].
+template <bool kForward, class Indices>
+HWY_INLINE V Neighbours(V v, V edge, M edge_lane, Indices turn) {
+  return hn::TableLookupLanes(hn::IfThenElse(edge_lane, edge, v), turn);
+}
+
+// Sweeps the skewed plane in the order of rising t and rows, or of falling ones.
+template <bool kForward, bool kCubic>
+bool SweepPlane(const DistancePlane& p) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  HWY_ALIGN std::int32_t turn_lanes[kLanes];
+  for (int i = 0; i < kLanes; ++i) turn_lanes[i] = (i + (kForward ? kLanes - 1 : 1)) % kLanes;
+  const auto turn = hn::SetTableIndices(d, turn_lanes);
+  const M edge_lane =
+      hn::RebindMask(d, hn::Eq(hn::Iota(di, 0), hn::Set(di, kForward ? kLanes - 1 : 0)));
+  const Quadratic<kCubic> quadratic(p.spacing);
+  float inverse = 0;
+  for (float h : p.spacing) inverse += 1 / (h * h);
+  // No estimate is nearer to the smallest neighbour than this.
+  const V least_step = hn::Set(d, 0.999f / std::sqrt(inverse));
+  const V outside = hn::Set(d, kOutsideDistance);
+  const std::ptrdiff_t strip_size = static_cast<std::ptrdiff_t>(p.steps) * kLanes;
+  constexpr int kLag = kLanes + 1;
+  M changed = hn::MaskFromVec(hn::Zero(d));
+
+  for (int first = 0; first < p.strips; first += kTogether) {
+    const int together = std::min(kTogether, p.strips - first);
+    V previous[kTogether] = {outside, outside, outside, outside};
+    const int count = p.steps + kLag * (together - 1);
+    for (int i = 0; i < count; ++i) {
+      for (int q = 0; q < kTogether; ++q) {
+        const int step = i - kLag * q;
+        if (q >= together || step < 0 || step >= p.steps) continue;
+        const int strip = kForward ? first + q : p.strips - 1 - first - q;
+        const int t = kForward ? step : p.steps - 1 - step;
+        const std::ptrdiff_t at = strip * strip_size + t * static_cast<std::ptrdiff_t>(kLanes);
+        // The row beside this strip, at the same x, belongs to the strip swept before.
+        const int across = kForward ? t + kLanes - 1 : t - kLanes + 1;
+        const bool inside =
+            kForward ? strip > 0 && across < p.steps : strip + 1 < p.strips && across >= 0;
+        const std::ptrdiff_t other = (kForward ? strip - 1 : strip + 1) * strip_size +
+                                     across * static_cast<std::ptrdiff_t>(kLanes);
+        const V edge = inside ? hn::Load(d, p.plane + other) : outside;
+        const V x = previous[q];
+        const V y = Neighbours<kForward>(x, edge, edge_lane, turn);
+        const V z = hn::Load(d, p.before + at);
+        const V current = hn::Load(d, p.plane + at);
+        const V least = hn::Min(x, hn::Min(y, z));
+        const M may =
+            hn::AndNot(hn::Eq(current, outside), hn::Gt(current, hn::Add(least, least_step)));
+        V value = current;
+        if (!hn::AllFalse(d, may)) {
+          const V estimate = hn::Add(least, quadratic(x, y, z, least));
+          const M better = hn::And(may, hn::Lt(estimate, current));
+          value = hn::IfThenElse(better, estimate, current);
+          changed = hn::Or(changed, better);
+          hn::Store(value, d, p.plane + at);
+        }
+        previous[q] = value;
+      }
+    }
+  }
+  return !hn::AllFalse(d, changed);
+}
+
+// Between a row of the grid and a padded row of magnitudes, which is mirrored on demand.
+void ReadRow(const DistancePlane& p, int y, float* HWY_RESTRICT row) {
+  const float* HWY_RESTRICT grid = p.grid + y * p.stride_y;
+  const int n = p.width;
+  if (p.stride_x != 1) {
+    for (int x = 0; x < n; ++x) row[p.mirrored ? n - 1 - x : x] = std::fabs(grid[x * p.stride_x]);
+  } else if (p.mirrored) {
+    for (int x = 0; x < n; ++x) row[x] = std::fabs(grid[n - 1 - x]);
+  } else {
+    for (int x = 0; x < n; ++x) row[x] = std::fabs(grid[x]);
+  }
+}
+void WriteRow(const DistancePlane& p, int y, const float* HWY_RESTRICT row) {
+  float* HWY_RESTRICT grid = p.grid + y * p.stride_y;
+  const int n = p.width;
+  if (p.stride_x != 1) {
+    for (int x = 0; x < n; ++x) {
+      float& g = grid[x * p.stride_x];
+      g = std::copysign(row[p.mirrored ? n - 1 - x : x], g);
+    }
+  } else if (p.mirrored) {
+    for (int x = 0; x < n; ++x) grid[x] = std::copysign(row[n - 1 - x], grid[x]);
+  } else {
+    for (int x = 0; x < n; ++x) grid[x] = std::copysign(row[x], grid[x]);
+  }
+}
+
+bool SweepDistance(DistancePlane& p) {
+  const std::ptrdiff_t strip_size = static_cast<std::ptrdiff_t>(p.steps) * kLanes;
+  for (int strip = 0; strip < p.strips; ++strip) {
+    for (int j = 0; j < kLanes; ++j) {
+      float* row = p.rows + j * p.row_pitch + kLanes;
+      const int y = strip * kLanes + j;
+      if (y < p.height) {
+        ReadRow(p, y, row);
+      } else {
+        std::fill_n(row, p.width, kOutsideDistance);
+      }
+    }
+    const float* from = p.rows + kLanes;
+    for (int t = 0; t < p.steps; t += 4) {
+      SkewFloats<kLanes>(from + t, p.row_pitch - 1, p.plane + strip * strip_size + t * kLanes);
+    }
+  }
+  bool changed;
+  const bool cubic = p.spacing[0] == p.spacing[1] && p.spacing[1] == p.spacing[2];
+  if (cubic) {
+    changed = SweepPlane<true, true>(p);
+    changed |= SweepPlane<false, true>(p);
+  } else {
+    changed = SweepPlane<true, false>(p);
+    changed |= SweepPlane<false, false>(p);
+  }
+  for (int strip = 0; strip < p.strips; ++strip) {
+    float* to = p.rows + kLanes;
+    for (int t = 0; t < p.steps; t += 4) {
+      UnskewFloats<kLanes>(p.plane + strip * strip_size + t * kLanes, to + t, p.row_pitch - 1);
+    }
+    for (int j = 0; j < kLanes && strip * kLanes + j < p.height; ++j) {
+      WriteRow(p, strip * kLanes + j, p.rows + j * p.row_pitch + kLanes);
+    }
+  }
+  return changed;
+}
+
+int DistanceLanes() { return kLanes; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace obscura
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace obscura {
+HWY_EXPORT(SweepDistance);
+HWY_EXPORT(DistanceLanes);
+
+namespace {
+constexpr std::ptrdiff_t kAlign = 16;  // floats
+}
+
+DistanceStage::DistanceStage(int width, int height, const float spacing[3], bool mirrored)
+    : width_(width), height_(height), mirrored_(mirrored) {
+  std::copy_n(spacing, 3, spacing_);
+  lanes_ = HWY_DYNAMIC_DISPATCH(DistanceLanes)();
+  strips_ = (height + lanes_ - 1) / lanes_;
+  steps_ = (width + lanes_ - 1 + 3) / 4 * 4;
+  const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(strips_) * steps_ * lanes_;
+  row_pitch_ = steps_ + 2 * lanes_;
+  storage_.assign(static_cast<std::size_t>(2 * plane + lanes_ * row_pitch_ + 3 * kAlign),
+                  kOutsideDistance);
+  const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
+  const auto lead = (kAlign - address / sizeof(float) % kAlign) % kAlign;
+  plane_ = storage_.data() + lead;
+  before_ = plane_ + plane;
+  rows_ = before_ + plane;
+}
+
+void DistanceStage::sweep(float* plane, std::ptrdiff_t stride_x, std::ptrdiff_t stride_y) {
+  std::swap(plane_, before_);
+  if (first_) {
+    std::fill_n(before_, static_cast<std::size_t>(strips_) * steps_ * lanes_, kOutsideDistance);
+    first_ = false;
+  }
+  DistancePlane p{plane,   stride_x, stride_y,   width_, height_, {},   mirrored_,
+                  strips_, steps_,   row_pitch_, plane_, before_, rows_};
+  std::copy_n(spacing_, 3, p.spacing);
+  changed_ |= HWY_DYNAMIC_DISPATCH(SweepDistance)(p);
+}
+
+bool DistanceStage::take_changed() { return std::exchange(changed_, false); }
+
+}  // namespace obscura
+#endif  // HWY_ONCE

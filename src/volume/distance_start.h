@@ -1,0 +1,16 @@
+#ifndef OBSCURA_SRC_VOLUME_DISTANCE_START_H_
+#define OBSCURA_SRC_VOLUME_DISTANCE_START_H_
+
+#include "obscura/volume.h"
+
+namespace obscura {
+
+// Writes the signed distances of the voxels beside the isosurface and +-kUnknownDistance elsewhere.
+// Counts the voxels of matter and the open ones. The settings are valid.
+void start_distance(const VolumeView& volume, const DistanceSettings& settings,
+                    GridView<float> distance, Executor& executor, std::int64_t* solid,
+                    std::int64_t* open);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_VOLUME_DISTANCE_START_H_

@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   add_gbuffer(app);
   add_compare(app);
   add_info(app);
+  add_light(app);
   add_demo(app);
   add_bench(app);
   add_settings(app);

@@ -24,6 +24,9 @@ struct Outputs {
   VectorView<float> uniform_integral{};
   // Cosine-weighted integral of V w (n.w) / pi: along the normal with length 2/3 where all is open.
   VectorView<float> cosine_integral{};
+  // The unit normals that a method works with, eye space: those given, or reconstructed from depth.
+  // Any Estimator gives them.
+  VectorView<float> normal{};
   // Reference tracers: estimated standard error of visibility.
   ImageView<float> standard_error{};
 };

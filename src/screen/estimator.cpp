@@ -53,6 +53,10 @@ Status check_outputs(const Outputs& o, const DepthField& field, const OutputKind
   check_vector(o.uniform_integral, kinds.uniform_integral, "uniform-integral");
   check_vector(o.cosine_integral, kinds.cosine_integral, "cosine-integral");
   check(o.standard_error, kinds.standard_error, "standard-error");
+  check_vector(o.normal, true, "normal");
+  if (status.ok() && !o.normal.empty() && field.normal_use == NormalUse::kNone) {
+    status = invalid_argument("output normal is asked for, but normal_use is none");
+  }
   return status;
 }
 
@@ -80,6 +84,17 @@ void fill_background(const view::Geometry& g, const Outputs& o, Executor& execut
   });
 }
 
+void copy_normals(const view::Geometry& g, const VectorView<float>& out, Executor& executor) {
+  executor.parallel_for(g.visible_height(), [&](int y, int) {
+    const int row = g.guard_band.top + y, left = g.guard_band.left;
+    for (int x = 0; x < g.visible_width(); ++x) {
+      out.x(x, y) = g.normal_x(left + x, row);
+      out.y(x, y) = g.normal_y(left + x, row);
+      out.z(x, y) = g.normal_z(left + x, row);
+    }
+  });
+}
+
 }  // namespace
 
 class EstimatorImpl {
@@ -97,12 +112,15 @@ class EstimatorImpl {
       if (!own_executor_) own_executor_ = make_executor(threads_);
       executor = own_executor_.get();
     }
-    if (Status s = view::convert(field, method_->needs(), *executor, &geometry_); !s.ok()) return s;
+    view::Needs needs = method_->needs();
+    needs.normals = needs.normals || !outputs.normal.empty();
+    if (Status s = view::convert(field, needs, *executor, &geometry_); !s.ok()) return s;
     if (Status s = check_outputs(outputs, field, method_->output_kinds()); !s.ok()) return s;
     if (Status s = method_->run(geometry_, outputs, {*executor, options.progress}); !s.ok()) {
       return s;
     }
     fill_background(geometry_, outputs, *executor);
+    if (!outputs.normal.empty()) copy_normals(geometry_, outputs.normal, *executor);
     return {};
   }
 

@@ -1,0 +1,338 @@
+// obscura light: a depth image, mesh or scene lit by an environment through its ambient visibility.
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "apps/obscura/app.h"
+#include "apps/obscura/input.h"
+#include "apps/obscura/methods.h"
+#include "apps/obscura/output.h"
+#include "fmt/format.h"
+#include "obscura/lighting.h"
+#include "support/files/files.h"
+#include "support/lighting/convolution_cache.h"
+#include "support/progress/progress_bar.h"
+
+namespace obscura::app {
+namespace {
+
+struct LightCommand {
+  InputOptions input;
+  MethodOptions method;
+  OptionTable lighting;
+  std::string environment, output, json;
+  std::string albedo = "1,1,1", sun_direction, sun_irradiance = "3,3,3";
+  double sun_radius_deg = 0.27, heading_deg = 0, pitch_deg = 0, exposure = 0;
+  bool cosine_cones = false, no_background = false, no_cache = false, half = false;
+  int threads = 0;
+};
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Status parse_three(const char* option, const std::string& text, double min, float* values) {
+  std::size_t at = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t comma = text.find(',', at);
+    const bool last = comma == std::string::npos;
+    double value;
+    if (last != (k == 2) || !parse_number(text.substr(at, last ? comma : comma - at), &value) ||
+        !(value >= min && std::abs(value) <= 1e30)) {
+      return invalid_argument(fmt::format("{} is '{}'; it must be three numbers{}, A,B,C", option,
+                                          text, min >= 0 ? " of 0 or more" : ""));
+    }
+    values[k] = static_cast<float>(value);
+    at = comma + 1;
+  }
+  return {};
+}
+
+// Eye space to world space: a scene's own camera, then the camera's pitch and heading.
+std::array<float, 9> world_from_eye(const LightCommand& c, const LoadedInput& input) {
+  support::Frame frame;
+  if (input.rendering.scene) frame = input.rendering.view.frame();
+  const double h = c.heading_deg * std::numbers::pi / 180;
+  const double p = c.pitch_deg * std::numbers::pi / 180;
+  std::array<float, 9> m;
+  const support::Vec3 axes[3] = {
+      {1, 0, 0}, {0, std::cos(p), std::sin(p)}, {0, -std::sin(p), std::cos(p)}};
+  for (int column = 0; column < 3; ++column) {
+    const support::Vec3 v = frame.to_world(axes[column]);
+    m[column] = float(std::cos(h) * v.x - std::sin(h) * v.z);
+    m[3 + column] = float(v.y);
+    m[6 + column] = float(std::sin(h) * v.x + std::cos(h) * v.z);
+  }
+  return m;
+}
+
+// What the lighting reads, at the visible size.
+struct Buffers {
+  explicit Buffers(const DepthField& f) : image(f.visible_width(), f.visible_height()) {
+    for (const char* name : {"visibility", "angle", "nx", "ny", "nz", "bx", "by", "bz"}) {
+      image.add(name);
+    }
+    visibility = image.view(0), angle = image.view(1);
+    normal = {image.view(2), image.view(3), image.view(4)};
+    bent = {image.view(5), image.view(6), image.view(7)};
+  }
+  support::Image image;
+  ImageView<float> visibility, angle;
+  VectorView<float> normal, bent;
+};
+
+Status estimate(const LightCommand& c, const AnySettings& method, const LoadedInput& input,
+                LightingTechnique technique, Buffers* b, const RunOptions& options) {
+  const support::DepthInput& g = input.depth();
+  const DepthField field = input.field();
+  Outputs outputs;
+  outputs.visibility = b->visibility;
+  const bool bent = technique != LightingTechnique::kAmbientOcclusion;
+  if (bent && c.cosine_cones) {
+    outputs.cosine_integral = b->bent;
+  } else if (bent) {
+    outputs.bent_normal = b->bent;
+    if (technique == LightingTechnique::kBentCone) outputs.cone_angle = b->angle;
+  }
+  const bool library = std::holds_alternative<MethodSettings>(method);
+  if (library) outputs.normal = b->normal;
+  if (Status s = run_method(method, input, c.threads, outputs, options); !s.ok()) return s;
+  if (!library) {
+    for (int y = 0; y < field.visible_height(); ++y) {
+      for (int x = 0; x < field.visible_width(); ++x) {
+        const std::size_t i = std::size_t(y + g.guard_band.top) * g.width + x + g.guard_band.left;
+        b->normal.x(x, y) = g.normal_x[i];
+        b->normal.y(x, y) = g.normal_y[i];
+        b->normal.z(x, y) = g.normal_z[i];
+      }
+    }
+  }
+  if (bent && c.cosine_cones) {
+    return cones_from_cosine_integral(b->visibility, b->bent, b->bent, b->angle, options);
+  }
+  return {};
+}
+
+// Background pixels show the environment along their rays, or black.
+void fill_background(const LoadedInput& input, const std::array<float, 9>& m,
+                     const Environment* environment, support::Image* image) {
+  const support::DepthInput& g = input.depth();
+  const bool far_end = g.depth_kind == DepthKind::kNdc || g.depth_kind == DepthKind::kNdcReversed;
+  for (int y = 0; y < image->height; ++y) {
+    for (int x = 0; x < image->width; ++x) {
+      const int u = x + g.guard_band.left, v = y + g.guard_band.top;
+      const float depth = g.depth[std::size_t(v) * g.width + u];
+      const bool background = !std::isfinite(depth) ||
+                              (far_end ? depth == (g.depth_kind == DepthKind::kNdc ? 1.0f : 0.0f)
+                                       : depth >= g.far_plane);
+      if (!background) continue;
+      std::array<float, 3> rgb{};
+      if (environment) {
+        const Camera& camera = g.camera;
+        const float away = camera.orthographic ? 0.0f : 1.0f;
+        const float ray[3] = {away * (float(u) + 0.5f - camera.center_u) * camera.scale_x,
+                              away * (camera.center_v - float(v) - 0.5f) * camera.scale_y, -1};
+        std::array<float, 3> world{};
+        for (int k = 0; k < 3; ++k) {
+          for (int i = 0; i < 3; ++i) world[k] += m[3 * k + i] * ray[i];
+        }
+        rgb = environment->radiance(world);
+      }
+      for (int k = 0; k < 3; ++k) {
+        image->channels[k].values[std::size_t(y) * image->width + x] = rgb[k];
+      }
+    }
+  }
+}
+
+// Linear light as a screen shows it, brightened by `exposure` stops.
+void to_srgb(double exposure, support::Image* image) {
+  const auto gain = static_cast<float>(std::exp2(exposure));
+  for (auto& channel : image->channels) {
+    for (float& v : channel.values) {
+      const float c = std::min(std::max(v * gain, 0.0f), 1.0f);
+      v = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
+    }
+  }
+}
+
+Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
+  if (c.sun_direction.empty()) return {};
+  Sun sun;
+  if (Status s = parse_three("--sun-direction", c.sun_direction, -1e30, sun.direction.data());
+      !s.ok()) {
+    return s;
+  }
+  if (Status s = parse_three("--sun-irradiance", c.sun_irradiance, 0, sun.irradiance.data());
+      !s.ok()) {
+    return s;
+  }
+  sun.angular_radius = float(c.sun_radius_deg * std::numbers::pi / 180);
+  PreconvolvedEnvironment result;
+  if (Status s = PreconvolvedEnvironment::from_table({}, lights->table(), sun, &result); !s.ok()) {
+    return s;
+  }
+  *lights = std::move(result);
+  return {};
+}
+
+Status run_light(const LightCommand& c, bool quiet) {
+  const auto start = Clock::now();
+  AnySettings method;
+  LightingSettings settings;
+  float albedo[3];
+  if (Status s = c.method.settings(&method); !s.ok()) return s;
+  if (Status s = c.lighting.read(&settings); !s.ok()) return s;
+  if (Status s = parse_three("--albedo", c.albedo, 0, albedo); !s.ok()) return s;
+  if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
+  support::EnvironmentSource source;
+  if (Status s = support::open_environment(c.environment, &source); !s.ok()) return s;
+
+  const auto executor = make_executor(c.threads);
+  PreconvolvedEnvironment lights;
+  EnvironmentRepairs repairs;
+  bool from_cache = false;
+  {
+    support::ProgressBar bar("environment", !quiet);
+    RunOptions options;
+    options.executor = executor.get();
+    options.progress = [&bar](double share) { return bar(share); };
+    support::ConvolutionCache cache;
+    cache.enabled = !c.no_cache;
+    if (Status s = support::preconvolve(source, {}, cache, &lights, &repairs, &from_cache, options);
+        !s.ok()) {
+      return s;
+    }
+  }
+  if (!quiet && repairs.any()) {
+    fmt::print(stderr, "obscura: {}: {}\n", source.name, support::describe(repairs));
+  }
+  if (Status s = with_sun_of(c, &lights); !s.ok()) return s;
+  const double convolved = seconds_since(start);
+
+  LoadedInput input;
+  if (Status s = c.input.load(layer_needs(method), c.threads, &input); !s.ok()) return s;
+  const double loaded = seconds_since(start);
+  Buffers buffers(input.field());
+  support::ProgressBar bar(c.method.method(), !quiet);
+  RunOptions options;
+  options.progress = [&bar](double share) { return bar(share); };
+  if (Status s = estimate(c, method, input, settings.technique, &buffers, options); !s.ok()) {
+    return s;
+  }
+  const double estimated = seconds_since(start);
+
+  settings.world_from_eye = world_from_eye(c, input);
+  support::Image image(buffers.image.width, buffers.image.height);
+  for (const char* name : {"R", "G", "B"}) image.add(name);
+  LightingInputs inputs;
+  inputs.visibility = buffers.visibility;
+  inputs.normal = buffers.normal;
+  inputs.bent_normal = buffers.bent;
+  inputs.cone_angle = buffers.angle;
+  // One texel for all pixels.
+  const int w = image.width, h = image.height;
+  inputs.albedo = {ImageView<const float>(albedo, w, h, 0, 0),
+                   ImageView<const float>(albedo + 1, w, h, 0, 0),
+                   ImageView<const float>(albedo + 2, w, h, 0, 0)};
+  RunOptions with_threads;
+  with_threads.executor = executor.get();
+  if (Status s = light(inputs, lights, settings, {image.view(0), image.view(1), image.view(2)},
+                       with_threads);
+      !s.ok()) {
+    return s;
+  }
+  const double lit = seconds_since(start);
+
+  Environment environment;
+  if (!c.no_background) {
+    EnvironmentRepairs same;
+    if (Status s = support::load_environment(source, &environment, &same, executor.get());
+        !s.ok()) {
+      return s;
+    }
+  }
+  fill_background(input, settings.world_from_eye, c.no_background ? nullptr : &environment, &image);
+  if (support::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
+  support::WriteOptions write;
+  write.half = c.half;
+  if (Status s = support::write_image(c.output, image, write); !s.ok()) return s;
+
+  support::Report report;
+  report.settings = to_json(method);
+  report.settings["input"] = c.input.path();
+  report.settings["method"] = c.method.method();
+  report.settings["environment"] = source.name;
+  visit_fields(settings, [&](const auto& value, const Field& field) {
+    report.settings[field.name] = write_setting(value);
+  });
+  const std::string name = enum_name(settings.technique);
+  report.add(name, from_cache ? "time to read the convolution" : "time to convolve",
+             1e3 * convolved, "ms");
+  report.add(name, "time to load", 1e3 * (loaded - convolved), "ms");
+  report.add(name, "time to compute", 1e3 * (estimated - loaded), "ms");
+  report.add(name, "time to light", 1e3 * (lit - estimated), "ms");
+  if (!quiet && c.json != "-") {
+    fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, w, h, name, c.method.method(),
+               source.name, from_cache ? " (cached)" : "", seconds_since(start));
+  }
+  return write_json(report, c.json);
+}
+
+}  // namespace
+
+void add_light(App& app) {
+  auto c = std::make_shared<LightCommand>();
+  CLI::App* command = app.add_command(
+      "light", "A depth image, mesh or scene lit by an environment, through bent normals and cones",
+      [c, &app] { return run_light(*c, app.quiet); });
+  command
+      ->add_option("--environment", c->environment,
+                   "Latitude-longitude map, twice as wide as high (.hdr, .exr, .pfm), or " +
+                       support::sky_help())
+      ->required()
+      ->type_name("FILE|sky");
+  command
+      ->add_option("-o,--output", c->output,
+                   "Result; linear RGB in .exr and .pfm, sRGB of [0, 1] in .png")
+      ->required()
+      ->type_name("FILE");
+  c->lighting.declare("light", LightingSettings{});
+  c->lighting.add_to(command, "Lighting");
+  command->add_flag("--cosine-cones", c->cosine_cones,
+                    "Cones from the cosine-weighted integral instead of the mean direction");
+  command->add_option("--albedo", c->albedo, "Reflectance of all surfaces [default 1,1,1]")
+      ->type_name("R,G,B");
+  command->add_option("--sun-direction", c->sun_direction, "Towards a sun, world space, y up")
+      ->type_name("X,Y,Z");
+  command
+      ->add_option("--sun-irradiance", c->sun_irradiance,
+                   "Its light on a surface that faces it [default 3,3,3]")
+      ->type_name("R,G,B");
+  command->add_option("--sun-radius-deg", c->sun_radius_deg, "Its angular radius [default 0.27]")
+      ->type_name("DEGREES");
+  command
+      ->add_option("--heading-deg", c->heading_deg,
+                   "Turns the camera to the right within the environment [default 0]")
+      ->type_name("DEGREES");
+  command
+      ->add_option("--pitch-deg", c->pitch_deg,
+                   "Tilts a depth image's camera upwards; a scene's is known [default 0]")
+      ->type_name("DEGREES");
+  command->add_option("--exposure", c->exposure, "Brightens a .png by this many stops [default 0]")
+      ->type_name("STOPS");
+  command->add_flag("--black-background", c->no_background,
+                    "Leave pixels without geometry black instead of showing the environment");
+  command->add_flag("--no-cache", c->no_cache,
+                    "Neither read nor write $XDG_CACHE_HOME/obscura (~/.cache/obscura)");
+  c->method.add_to(command, "geometric");
+  c->input.add_to(command);
+  add_threads_option(command, &c->threads);
+  command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
+  command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+}  // namespace obscura::app

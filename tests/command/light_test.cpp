@@ -1,0 +1,76 @@
+#include <cmath>
+
+#include "support/files/files.h"
+#include "tests/command/run_command.h"
+
+namespace obscura {
+namespace {
+
+constexpr const char* kHall = "light scene:hall --size 32x18 --rays 16 --no-cache ";
+
+class LightCommandTest : public CommandTest {};
+
+TEST_F(LightCommandTest, WritesRadiance) {
+  for (const char* more : {"", "--cosine-cones", "--technique bent-normal --geometric-term",
+                           "--technique ambient-occlusion --albedo 0.5,0.5,0.5",
+                           "--sun-direction 1,1,1 --heading-deg 90"}) {
+    const CommandResult r =
+        run(std::string(kHall) + "--environment sky:turbidity=4 -o lit.exr " + more);
+    ASSERT_EQ(r.code, 0) << more << r.err;
+    support::Image image;
+    ASSERT_TRUE(support::read_image(path("lit.exr"), &image).ok());
+    ASSERT_EQ(image.channels.size(), 3u);
+    double sum = 0;
+    for (const auto& channel : image.channels) {
+      for (float v : channel.values) {
+        ASSERT_TRUE(std::isfinite(v) && v >= 0);
+        sum += v;
+      }
+    }
+    EXPECT_GT(sum, 1);
+  }
+}
+
+// Uniform light, no falloff: what is lit is visibility, whatever the technique.
+TEST_F(LightCommandTest, UniformSkyGivesVisibility) {
+  ASSERT_EQ(run("ao scene:hall --size 32x18 --rays 16 --method geometric -o v.pfm").code, 0);
+  support::Image visibility, lit;
+  ASSERT_TRUE(support::read_image(path("v.pfm"), &visibility).ok());
+  for (const char* technique : {"ambient-occlusion", "bent-normal", "bent-cone"}) {
+    const CommandResult r = run(
+        std::string(kHall) + "--environment sky:model=uniform -o lit.pfm --technique " + technique);
+    ASSERT_EQ(r.code, 0) << r.err;
+    ASSERT_TRUE(support::read_image(path("lit.pfm"), &lit).ok());
+    for (std::size_t i = 0; i < lit.channels[0].values.size(); ++i) {
+      const float v = visibility.channels[0].values[i];
+      EXPECT_NEAR(lit.channels[0].values[i], v, 0.005 * v + 1e-6);
+    }
+  }
+}
+
+TEST_F(LightCommandTest, KeepsTheConvolution) {
+  const std::string command = "light scene:hall --size 16x9 --rays 4 --environment sky -o lit.png";
+  EXPECT_EQ(run(command, "export XDG_CACHE_HOME=$PWD/cache;").code, 0);
+  const CommandResult again = run(command, "export XDG_CACHE_HOME=$PWD/cache;");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("(cached)"), std::string::npos) << again.out;
+}
+
+TEST_F(LightCommandTest, BadUsageAndBadInputAreTold) {
+  const std::string hall = kHall;
+  expect_failure(hall + "-o a.png", 2, "--environment");
+  expect_failure(hall + "--environment sky:blue=1 -o a.png", 2, "sky has no setting 'blue=1'");
+  expect_failure(hall + "--environment sky --albedo 1,2 -o a.png", 2, "three numbers");
+  expect_failure(hall + "--environment sky --sun-direction 0,0,0 -o a.png", 2, "sun direction");
+  expect_failure(hall + "--environment sky -o a.jpg", 2, "a.jpg");
+  expect_failure(hall + "--environment sky --technique cone -o a.png", 2, "--technique");
+  expect_failure("light scene:hall --size 32x18 --environment sky --method line -o a.png", 2,
+                 "bent-normal");
+  // PFM of 2x2: not twice as wide as high.
+  write("square.pfm", "Pf\n2 2\n-1\n" + std::string(16, '\0'));
+  expect_failure(hall + "--environment square.pfm -o a.png", 3, "twice as wide as high");
+  EXPECT_EQ(run(hall + "--environment missing.hdr -o a.png").code, 3);
+}
+
+}  // namespace
+}  // namespace obscura

@@ -4,12 +4,14 @@
 
 #include "fmt/format.h"
 #include "support/files/depth_file.h"
+#include "support/meshes/load_mesh.h"
 
 namespace obscura::app {
 namespace {
 
 constexpr const char* kImages = "depth images";
-constexpr const char* kGeometry = "scenes and meshes";
+constexpr const char* kScenes = "scenes";
+constexpr const char* kMeshes = "meshes";
 
 // `normals` of a rendered input; that of a file names channels too.
 struct RenderedNormals {
@@ -36,42 +38,49 @@ void InputOptions::add_to(CLI::App* command) {
       ->required()
       ->type_name("");
   table_.declare(kImages, support::DepthFileOptions{});
-  table_.declare(kGeometry, support::ViewOptions{});
-  table_.declare(kGeometry, RenderedNormals{});
+  table_.declare(kScenes, support::ViewOptions{});
+  table_.declare(kScenes, RenderedNormals{});
+  table_.declare(kMeshes, support::MeshOptions{});
+  table_.declare(kMeshes, RenderedNormals{});
   table_.add_to(command, "Input");
 }
 
 Status InputOptions::load(const LayerNeeds& needs, int threads, LoadedInput* input) const {
-  if (support::is_scene(path_)) {
-    if (Status s = table_.refuse_others(kGeometry, path_); !s.ok()) return s;
-    support::ViewOptions options;
-    if (Status s = table_.read(&options); !s.ok()) return s;
-    options.back_depth = options.back_depth || needs.back_depth;
-    options.layers = std::max(options.layers, needs.layers);
-    RenderedNormals normals;
-    if (Status s = table_.read(&normals); !s.ok()) return s;
-    const std::string& use = normals.normals;
-    if (use != "auto" && use != "depth" && use != "none") {
-      return invalid_argument(fmt::format(
-          "--normals is '{}'; it must be auto, depth or none for a scene or mesh", use));
-    }
-    const auto executor = make_executor(threads);
-    support::DepthInput& gbuffer = input->rendering.gbuffer;
-    if (Status s = support::load_scene(path_, options, *executor, &input->rendering); !s.ok()) {
-      return s;
-    }
-    gbuffer.name = path_;
-    if (use == "none") input->normal_use = NormalUse::kNone;
-    if (use == "depth") {
-      for (auto* n : {&gbuffer.normal_x, &gbuffer.normal_y, &gbuffer.normal_z}) n->clear();
-    }
-    return {};
-  }
+  if (support::is_scene(path_) || support::is_mesh(path_)) return render(needs, threads, input);
   if (Status s = table_.refuse_others(kImages, "a depth image"); !s.ok()) return s;
   support::DepthFileOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
   return support::load_depth_input(path_, options, &input->rendering.gbuffer);
+}
+
+Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* input) const {
+  const bool scene = support::is_scene(path_);
+  if (Status s = table_.refuse_others(scene ? kScenes : kMeshes, path_); !s.ok()) return s;
+  RenderedNormals normals;
+  if (Status s = table_.read(&normals); !s.ok()) return s;
+  const std::string& use = normals.normals;
+  if (use != "auto" && use != "depth" && use != "none") {
+    return invalid_argument(
+        fmt::format("--normals is '{}'; it must be auto, depth or none for a scene or mesh", use));
+  }
+  support::MeshOptions options;
+  if (Status s = table_.read(&options); !s.ok()) return s;
+  options.view.back_depth = options.view.back_depth || needs.back_depth;
+  options.view.layers = std::max(options.view.layers, needs.layers);
+
+  const auto executor = make_executor(threads);
+  support::Rendering* rendering = &input->rendering;
+  const Status s = scene ? support::load_scene(path_, options.view, *executor, rendering)
+                         : support::load_mesh(path_, options, *executor, rendering);
+  if (!s.ok()) return s;
+  support::DepthInput& gbuffer = rendering->gbuffer;
+  gbuffer.name = path_;
+  if (use == "none") input->normal_use = NormalUse::kNone;
+  if (use == "depth") {
+    for (auto* n : {&gbuffer.normal_x, &gbuffer.normal_y, &gbuffer.normal_z}) n->clear();
+  }
+  return {};
 }
 
 }  // namespace obscura::app

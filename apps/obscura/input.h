@@ -34,6 +34,8 @@ class InputOptions {
   Status load(const LayerNeeds& needs, int threads, LoadedInput* input) const;
 
  private:
+  Status render(const LayerNeeds& needs, int threads, LoadedInput* input) const;
+
   std::string path_;
   OptionTable table_;
 };

@@ -23,6 +23,8 @@ decltype(auto) visit_settings(Settings& settings, F&& f) {
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
+      {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
+       FarFieldSettings{}},
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
       {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},
       {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "obscura/depth_field.h"
+#include "obscura/far_field.h"
 #include "obscura/line.h"
 #include "obscura/outputs.h"
 #include "obscura/reference.h"
@@ -13,7 +14,7 @@
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings = std::variant<LineSettings, ReferenceSettings>;
+using MethodSettings = std::variant<FarFieldSettings, LineSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

@@ -10,6 +10,7 @@
 #include "obscura/estimator.h"
 #include "obscura/executor.h"
 #include "obscura/falloff.h"
+#include "obscura/far_field.h"
 #include "obscura/lighting.h"
 #include "obscura/line.h"
 #include "obscura/occluder.h"

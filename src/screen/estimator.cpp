@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "screen/blurred.h"
+#include "screen/far_field/far_field.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
 #include "screen/reference/reference.h"
@@ -16,6 +17,10 @@ Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>*
   if (Status status = make_line(s, m); !status.ok()) return status;
   if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
   return {};
+}
+
+Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>* m) {
+  return make_far_field(s, m);
 }
 
 Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {

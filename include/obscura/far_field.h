@@ -1,0 +1,72 @@
+#ifndef OBSCURA_FAR_FIELD_H_
+#define OBSCURA_FAR_FIELD_H_
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "obscura/falloff.h"
+#include "obscura/occluder.h"
+
+namespace obscura {
+
+// Where matter is between two points that an azimuthal slice has seen.
+enum class SlabProfile {
+  kSlab,           // the paper: each point's matter begins at its own view ray
+  kAdaptiveChord,  // on the line from the point before, where that one was visible too
+};
+template <>
+struct EnumNames<SlabProfile> {
+  static constexpr const char* names[] = {"slab", "adaptive-chord"};
+};
+
+// Distance between the direct samples of the near field.
+struct NearStep {
+  float px = 0;  // (0, 8]; 0: adaptive, a quarter pixel at first and growing outwards
+
+  static NearStep adaptive() { return {}; }
+  static NearStep of(float px) { return {px}; }
+  bool operator==(const NearStep&) const = default;
+};
+template <>
+struct SettingText<NearStep> {
+  static constexpr const char* form = "adaptive or a number of pixels in [0.125, 8]";
+  static bool parse(std::string_view text, NearStep* value);
+  static std::string write(const NearStep& value);
+};
+
+// Far-field ambient obscurance (Timonen 2013): the whole depth image for every pixel at a cost that
+// does not depend on the radius. Lines scanned in K directions leave per interval the highest
+// geometry as seen at two slopes; each receiver reads their averages over its azimuthal sector.
+// Direct samples serve the first one and a half intervals.
+struct FarFieldSettings {
+  Falloff falloff{};                                  // any
+  Occluder occluder{};                                // solid, thickness or back-depth
+  int directions = 16;                                // [4, 64] K
+  int segments = 2;                                   // [1, 8] S per direction
+  int interval = 10;                                  // [2, 64] B0, pixels
+  SlabProfile profile = SlabProfile::kAdaptiveChord;  // slab is the paper's
+  int receiver_slope = -1;                            // [-1, 1], not 0: of the second height
+  NearStep near_step{.px = 0.25f};                    // px, or adaptive
+  bool near_field = true;                             // false: the far field alone
+};
+template <FieldsOf<FarFieldSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
+  v(s.directions,
+    Field{"directions", "", closed(4, 64), "Directions K in which the depth image is scanned."});
+  v(s.segments, Field{"segments", "per direction", closed(1, 8),
+                      "Segments S into which each direction's sector is divided."});
+  v(s.interval,
+    Field{"interval", "pixels", closed(2, 64), "Base interval B0 along the scanned lines."});
+  v(s.profile, Field{"profile", "", {}, "Where matter is between two points of a slice."});
+  v(s.receiver_slope, Field{"receiver_slope", "", closed(-1, 1),
+                            "Slope, -1 or 1, at which the second height is taken."});
+  v(s.near_step, Field{"near_step", "pixels", {}, "Step of the near field's direct samples."});
+  v(s.near_field, Field{"near_field", "", {}, "Sample the near field; off: the far field alone."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_FAR_FIELD_H_

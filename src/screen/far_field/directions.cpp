@@ -1,0 +1,86 @@
+#include "screen/far_field/directions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace obscura::far_field {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Distances of the near field's samples from the receiver, in pixels, up to `end`.
+std::vector<double> near_distances(const NearStep& step, double end) {
+  std::vector<double> distances;
+  if (step.px > 0) {
+    for (int i = 1; i * double(step.px) < end; ++i) distances.push_back(i * double(step.px));
+    return distances;
+  }
+  // Adaptive: what a sample subtends shrinks with its distance.
+  for (double t = 0.25; t < end; t += std::max(0.25, 0.15 * t)) distances.push_back(t);
+  return distances;
+}
+
+std::vector<NearTap> make_taps(const FarFieldSettings& s, double angle) {
+  std::vector<NearTap> taps;
+  if (!s.near_field) return taps;
+  const double rows = std::cos(angle), slope = std::tan(angle);
+  for (double distance : near_distances(s.near_step, longest_near_field(s.interval) / rows)) {
+    // Rounded so that samples on lattice lines stay on them, mirrored ones too.
+    const double v = std::round(distance * rows * 4096) / 4096;
+    const double u = std::round(v * slope * 4096) / 4096;
+    const int du = static_cast<int>(std::floor(u)), dv = static_cast<int>(std::floor(v));
+    taps.push_back({float(v), du, dv, float(u - du), float(v - dv)});
+  }
+  return taps;
+}
+
+// Strips of one direction are all cut at the same rows; directions that cut elsewhere keep that
+// from showing. Left and right directions share their phase, so that mirrored images are treated
+// alike.
+int strip_phase(bool transposed, int sign, double angle, int interval) {
+  const double down = transposed ? std::sin(angle) : sign * std::cos(angle);
+  const double golden = down * 1.618033988749895 * 7 + 16;
+  return static_cast<int>((golden - std::floor(golden)) * 4 * interval);
+}
+
+}  // namespace
+
+std::vector<Direction> make_directions(const FarFieldSettings& s) {
+  // Half a sector of rotation keeps every sector on one side of the diagonals where 8 divides K.
+  const double offset = s.directions % 8 == 0 ? 0.5 : 0;
+  std::vector<Direction> directions(s.directions);
+  for (int k = 0; k < s.directions; ++k) {
+    Direction& d = directions[k];
+    const double azimuth = 2 * kPi * (k + offset) / s.directions;
+    const double u = std::cos(azimuth), v = std::sin(azimuth);
+    // On the diagonal itself rounding must not decide.
+    d.transposed = std::abs(u) > std::abs(v) + 1e-9;
+    d.sign = (d.transposed ? u : v) > 0 ? 1 : -1;
+    const double angle = std::atan2(d.transposed ? v : u, std::abs(d.transposed ? u : v));
+    d.slope = static_cast<float>(std::tan(angle));
+    d.phase = strip_phase(d.transposed, d.sign, angle, s.interval);
+    d.segments.resize(s.segments);
+    const double width = 2 * kPi / s.directions / s.segments;
+    for (int i = 0; i < s.segments; ++i) {
+      const double low = angle + width * (i - 0.5 * s.segments);
+      Segment& segment = d.segments[i];
+      segment.low = static_cast<float>(std::tan(low));
+      segment.high = static_cast<float>(std::tan(low + width));
+      segment.middle = static_cast<float>(std::tan(low + 0.5 * width));
+      segment.taps = make_taps(s, low + 0.5 * width);
+    }
+  }
+  return directions;
+}
+
+int sideways_reach(const std::vector<Direction>& directions, int interval) {
+  double slope = 0;
+  for (const Direction& d : directions) {
+    slope = std::max<double>(slope, std::abs(d.slope));
+    for (const Segment& s : d.segments) slope = std::max<double>(slope, std::abs(s.middle));
+  }
+  return static_cast<int>(std::ceil(slope * 2 * interval)) + 2;
+}
+
+}  // namespace obscura::far_field

@@ -1,0 +1,43 @@
+#ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_DIRECTIONS_H_
+#define OBSCURA_SRC_SCREEN_FAR_FIELD_DIRECTIONS_H_
+
+#include <vector>
+
+#include "obscura/far_field.h"
+
+namespace obscura::far_field {
+
+// A direct sample of the near field, relative to the receiver's texel: between texels (du, dv),
+// (du + 1, dv), (du, dv + 1) and (du + 1, dv + 1), dv counted outwards.
+struct NearTap {
+  float along;  // rows outwards
+  int du, dv;
+  float wu, wv;  // weights of the farther texels
+};
+
+// Part of a direction's sector. A slope is the change of u per row outwards.
+struct Segment {
+  float low = 0, high = 0, middle = 0;
+  std::vector<NearTap> taps;  // in order of `along`, to the end of the longest near field
+};
+
+// One of the K scan directions: outwards along +v or -v (sign) of its plane.
+struct Direction {
+  bool transposed = false;
+  int sign = 1;
+  float slope = 0;
+  int phase = 0;  // rows by which the strips begin before the image
+  std::vector<Segment> segments;
+};
+
+// Rows from a receiver to its first interval lie in [interval, 2 interval).
+inline int longest_near_field(int interval) { return 2 * interval - 1; }
+
+std::vector<Direction> make_directions(const FarFieldSettings& settings);
+
+// The farthest that any near tap or scanned interval reaches sideways, in texels.
+int sideways_reach(const std::vector<Direction>& directions, int interval);
+
+}  // namespace obscura::far_field
+
+#endif  // OBSCURA_SRC_SCREEN_FAR_FIELD_DIRECTIONS_H_

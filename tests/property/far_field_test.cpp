@@ -1,0 +1,197 @@
+// Properties of far-field ambient obscurance as users call it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+#include "obscura/obscura.h"
+#include "support/files/files.h"
+#include "support/metrics/compare.h"
+#include "tests/property/synthetic.h"
+
+namespace obscura {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+std::vector<float> visibility(const DepthField& field, const FarFieldSettings& settings,
+                              int threads = 1) {
+  const int w = field.visible_width(), h = field.visible_height();
+  std::vector<float> result(static_cast<std::size_t>(w) * h, -1.0f);
+  Estimator estimator;
+  Status s =
+      Estimator::create(settings, field.depth.width, field.depth.height, threads, &estimator);
+  EXPECT_TRUE(s.ok()) << s.message();
+  s = estimator.run(field, {.visibility = {result.data(), w, h}});
+  EXPECT_TRUE(s.ok()) << s.message();
+  return result;
+}
+
+FarFieldSettings quick() {
+  FarFieldSettings s;
+  s.directions = 8;
+  s.near_step = NearStep::of(1);
+  return s;
+}
+
+bool all_in_range(const std::vector<float>& v) {
+  for (float x : v) {
+    if (!(x >= 0 && x <= 1)) return false;
+  }
+  return true;
+}
+
+// The figures of an independent prototype and tracer are the bars (papers' notes, section 2).
+TEST(FarField, MeetsTheErrorBarsOnTheDepthImages) {
+  const std::string folder = OBSCURA_SOURCE_DIR "/../shared/data/depth/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  struct Case {
+    const char* image;
+    const char* truth;
+    float radius;
+    double e_a, within_5;
+  };
+  for (const Case& c :
+       {Case{"hall", "hall", 2, 1.0, 98.5}, Case{"spheres", "spheres", 1, 0.7, 98.5},
+        Case{"terrain", "terrain", 0.7f, 1.6, 91}, Case{"hall", "hall.endless", kInf, 0.7, 98.5}}) {
+    support::Image depth, truth;
+    ASSERT_TRUE(support::read_image(folder + c.image + ".pfm", &depth).ok());
+    ASSERT_TRUE(support::read_image(folder + c.truth + ".truth.pfm", &truth).ok());
+    DepthField field;
+    field.depth = depth.view(0);
+    field.guard_band = GuardBand::symmetric(64, 36);
+    field.camera = {
+        .scale_x = 1 / 311.769f, .scale_y = 1 / 311.769f, .center_u = 384, .center_v = 216};
+    FarFieldSettings s;
+    s.falloff.radius = c.radius;
+    auto compare = [&](const FarFieldSettings& settings) {
+      const std::vector<float> v = visibility(field, settings, 2);
+      support::Comparison result;
+      EXPECT_TRUE(support::compare({v.data(), 640, 360}, truth.view(0), {}, &result).ok());
+      return result;
+    };
+    const support::Comparison result = compare(s);
+    EXPECT_LE(result.e_a, c.e_a) << c.truth;
+    EXPECT_GE(result.within_5, c.within_5) << c.truth;
+    if (std::string(c.truth) != "hall") continue;
+    s.profile = SlabProfile::kSlab;
+    s.near_step = NearStep::of(1);
+    const support::Comparison slab = compare(s);
+    EXPECT_NEAR(slab.e_a, 2.91, 0.15 * 2.91);
+    EXPECT_GT(slab.bias, 0);
+    EXPECT_LE(result.e_a, 0.5 * slab.e_a);
+  }
+}
+
+TEST(FarField, TiltedPlanesAreOpen) {
+  Random random(1);
+  double worst = 0;
+  for (int i = 0; i < 12; ++i) {
+    Camera camera = Camera::perspective(1.0f, 120, 90);
+    if (i % 2) camera = Camera::orthographic_height(4, 120, 90);
+    const double tilt = 0.1 * i, turn = 6.28 * random.uniform();
+    const synthetic::Input in =
+        synthetic::plane(120, 90, camera, std::sin(tilt) * std::cos(turn),
+                         std::sin(tilt) * std::sin(turn), std::cos(tilt), 10);
+    FarFieldSettings s = quick();
+    s.falloff.radius = kInf;
+    const std::vector<float> v = visibility(in.field(), s);
+    double sum = 0;
+    for (float x : v) sum += x;
+    worst = std::max(worst, 1 - sum / v.size());
+  }
+  // The two receiver slopes meet above a tilted plane's own points.
+  EXPECT_LT(worst, 0.01);
+}
+
+TEST(FarField, MirroredInputGivesMirroredOutput) {
+  synthetic::Input in = synthetic::blocks(150, 70, Camera::perspective(1.0f, 150, 70), 3);
+  const std::vector<float> v = visibility(in.field(), quick());
+  for (int y = 0; y < in.height; ++y) {
+    std::reverse(in.depth.begin() + y * in.width, in.depth.begin() + (y + 1) * in.width);
+  }
+  const std::vector<float> m = visibility(in.field(), quick());
+  double sum = 0;
+  for (int y = 0; y < in.height; ++y) {
+    for (int x = 0; x < in.width; ++x) {
+      sum += std::abs(v[y * in.width + x] - m[y * in.width + in.width - 1 - x]);
+    }
+  }
+  // Equal depth steps on both sides of a pixel give its normal to the forward one.
+  EXPECT_LT(sum / v.size(), 0.002);
+}
+
+TEST(FarField, BitsDoNotDependOnThreads) {
+  const synthetic::Input in = synthetic::blocks(130, 90, Camera::perspective(1.2f, 130, 90), 7);
+  const std::vector<float> one = visibility(in.field(), quick(), 1);
+  const std::vector<float> three = visibility(in.field(), quick(), 3);
+  EXPECT_EQ(std::memcmp(one.data(), three.data(), one.size() * sizeof(float)), 0);
+}
+
+TEST(FarField, ExtremesHaveDefinedValues) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {50, 1}, {1, 50}, {33, 17}}) {
+    for (float fov : {0.087f, 2.62f}) {
+      for (double scale : {1e-3, 1.0, 1e6}) {
+        for (SlabProfile profile : {SlabProfile::kSlab, SlabProfile::kAdaptiveChord}) {
+          synthetic::Input in = synthetic::blocks(w, h, Camera::perspective(fov, w, h), 5);
+          for (std::size_t i = 0; i < in.depth.size(); ++i) {
+            in.depth[i] *= static_cast<float>(i % 7 == 0 ? 1e-3 : scale);
+          }
+          FarFieldSettings s = quick();
+          s.profile = profile;
+          s.interval = 4;
+          EXPECT_TRUE(all_in_range(visibility(in.field(), s))) << w << "x" << h << " " << scale;
+        }
+      }
+    }
+  }
+}
+
+TEST(FarField, AllBackgroundIsOpen) {
+  synthetic::Input in = synthetic::blocks(40, 30, Camera::perspective(1, 40, 30), 1);
+  std::fill(in.depth.begin(), in.depth.end(), kInf);
+  for (float v : visibility(in.field(), quick())) EXPECT_EQ(v, 1);
+}
+
+// A tower far before a wall-less sky: its neighbourhood has no halo.
+TEST(FarField, BackgroundDoesNotOcclude) {
+  synthetic::Input in =
+      synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);
+  in.normals.clear();
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      if (x < 40 || x >= 120 || y < 20) in.depth[y * 160 + x] = kInf;
+    }
+  }
+  const std::vector<float> v = visibility(in.field(), quick());
+  EXPECT_GT(*std::min_element(v.begin(), v.end()), 0.999f);
+}
+
+TEST(FarField, EveryFalloffAndEveryWrongSettingIsAnswered) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1.0f, 64, 48), 9);
+  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential,
+                           FalloffKind::kQuadratic, FalloffKind::kInverseSquare}) {
+    for (float radius : {1e-6f, 0.5f, 1e6f, kInf}) {
+      FarFieldSettings s = quick();
+      s.falloff = {.kind = kind, .radius = radius};
+      EXPECT_TRUE(all_in_range(visibility(in.field(), s)));
+    }
+  }
+  auto refused = [](auto change) {
+    FarFieldSettings s;
+    change(s);
+    Estimator e;
+    return !Estimator::create(s, 8, 8, 1, &e).ok();
+  };
+  EXPECT_TRUE(refused([](auto& s) { s.directions = 3; }));
+  EXPECT_TRUE(refused([](auto& s) { s.segments = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.interval = 1; }));
+  EXPECT_TRUE(refused([](auto& s) { s.receiver_slope = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.near_step = NearStep::of(-1); }));
+  EXPECT_TRUE(refused([](auto& s) { s.falloff.radius = -1; }));
+}
+
+}  // namespace
+}  // namespace obscura

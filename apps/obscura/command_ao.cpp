@@ -1,5 +1,4 @@
 // obscura ao: ambient visibility of a depth image, a mesh or a scene, from file to file.
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "fmt/format.h"
 #include "support/files/files.h"
 #include "support/progress/progress_bar.h"
+#include "support/progress/stopwatch.h"
 
 namespace obscura::app {
 namespace {
@@ -21,10 +21,6 @@ struct AoCommand {
   int threads = 0;
   bool keep_channels = false, half = false;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 double mean(const ImageView<const float>& image) {
   double sum = 0;
@@ -40,7 +36,7 @@ double mean(const ImageView<const float>& image) {
 }
 
 Status run_ao(const AoCommand& c, bool quiet) {
-  const auto start = std::chrono::steady_clock::now();
+  const support::Stopwatch watch;
   AnySettings settings;
   OutputImages images;
   if (Status s = c.method.settings(&settings); !s.ok()) return s;
@@ -54,7 +50,7 @@ Status run_ao(const AoCommand& c, bool quiet) {
 
   LoadedInput input;
   if (Status s = c.input.load(layer_needs(settings), c.threads, &input); !s.ok()) return s;
-  const double loaded = seconds_since(start);
+  const double loaded = watch.seconds();
 
   const DepthField field = input.field();
   const Outputs outputs = images.allocate(field.visible_width(), field.visible_height());
@@ -62,13 +58,13 @@ Status run_ao(const AoCommand& c, bool quiet) {
   RunOptions options;
   options.progress = [&bar](double share) { return bar(share); };
   if (Status s = run_method(settings, input, c.threads, outputs, options); !s.ok()) return s;
-  const double computed = seconds_since(start);
+  const double computed = watch.seconds();
 
   support::WriteOptions write;
   write.half = c.half;
   if (c.keep_channels) write.keep_channels_of = c.input.path();
   if (Status s = support::write_image(c.output, images.image(), write); !s.ok()) return s;
-  const double total = seconds_since(start);
+  const double total = watch.seconds();
 
   support::Report report;
   report.settings = to_json(settings);

@@ -1,5 +1,4 @@
 // obscura demo: two scenes, each by a fast method and by the truth, with the error between them.
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
@@ -11,6 +10,7 @@
 #include "support/metrics/compare.h"
 #include "support/pictures/pictures.h"
 #include "support/progress/progress_bar.h"
+#include "support/progress/stopwatch.h"
 #include "support/scenes/load_scene.h"
 
 namespace obscura::app {
@@ -37,11 +37,11 @@ Status run_timed(const std::string& label, const AnySettings& settings, const Lo
   run->image = support::Image(field.visible_width(), field.visible_height());
   run->image.add("visibility");
   support::ProgressBar bar(label, !quiet);
-  const auto start = std::chrono::steady_clock::now();
+  const support::Stopwatch watch;
   const Status status =
       run_method(settings, input, threads, {.visibility = run->image.view(0)},
                  {.executor = nullptr, .progress = [&bar](double share) { return bar(share); }});
-  run->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run->seconds = watch.seconds();
   return status;
 }
 

@@ -1,5 +1,4 @@
 // obscura light: a depth image, mesh or scene lit by an environment through its ambient visibility.
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "support/files/files.h"
 #include "support/lighting/convolution_cache.h"
 #include "support/progress/progress_bar.h"
+#include "support/progress/stopwatch.h"
 
 namespace obscura::app {
 namespace {
@@ -27,11 +27,6 @@ struct LightCommand {
   bool cosine_cones = false, no_background = false, no_cache = false, half = false;
   int threads = 0;
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 Status parse_three(const char* option, const std::string& text, double min, float* values) {
   std::size_t at = 0;
@@ -179,7 +174,7 @@ Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
 }
 
 Status run_light(const LightCommand& c, bool quiet) {
-  const auto start = Clock::now();
+  const support::Stopwatch watch;
   AnySettings method;
   LightingSettings settings;
   float albedo[3];
@@ -210,11 +205,11 @@ Status run_light(const LightCommand& c, bool quiet) {
     fmt::print(stderr, "obscura: {}: {}\n", source.name, support::describe(repairs));
   }
   if (Status s = with_sun_of(c, &lights); !s.ok()) return s;
-  const double convolved = seconds_since(start);
+  const double convolved = watch.seconds();
 
   LoadedInput input;
   if (Status s = c.input.load(layer_needs(method), c.threads, &input); !s.ok()) return s;
-  const double loaded = seconds_since(start);
+  const double loaded = watch.seconds();
   Buffers buffers(input.field());
   support::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;
@@ -222,7 +217,7 @@ Status run_light(const LightCommand& c, bool quiet) {
   if (Status s = estimate(c, method, input, settings.technique, &buffers, options); !s.ok()) {
     return s;
   }
-  const double estimated = seconds_since(start);
+  const double estimated = watch.seconds();
 
   settings.world_from_eye = world_from_eye(c, input);
   support::Image image(buffers.image.width, buffers.image.height);
@@ -244,7 +239,7 @@ Status run_light(const LightCommand& c, bool quiet) {
       !s.ok()) {
     return s;
   }
-  const double lit = seconds_since(start);
+  const double lit = watch.seconds();
 
   Environment environment;
   if (!c.no_background) {
@@ -276,7 +271,7 @@ Status run_light(const LightCommand& c, bool quiet) {
   report.add(name, "time to light", 1e3 * (lit - estimated), "ms");
   if (!quiet && c.json != "-") {
     fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, w, h, name, c.method.method(),
-               source.name, from_cache ? " (cached)" : "", seconds_since(start));
+               source.name, from_cache ? " (cached)" : "", watch.seconds());
   }
   return write_json(report, c.json);
 }

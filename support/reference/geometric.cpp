@@ -218,7 +218,7 @@ Status trace_geometric(const Rendering& rendering, const GeometricSettings& sett
   if (!options.executor) own = make_executor();
   Executor& executor = options.executor ? *options.executor : *own;
 
-  const bool uniform_visibility = settings.weighting == Weighting::kUniform;
+  const bool uniform_visibility = settings.weighting == RayWeighting::kUniform;
   const bool wants_visibility = !outputs.visibility.empty() || !outputs.standard_error.empty();
   const bool cosine = (wants_visibility && !uniform_visibility) || !outputs.cosine_integral.empty();
   const bool uniform = (wants_visibility && uniform_visibility) || !outputs.bent_normal.empty() ||

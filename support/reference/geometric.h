@@ -5,19 +5,17 @@
 
 #include "obscura/falloff.h"
 #include "obscura/outputs.h"
+#include "obscura/reference.h"
 #include "support/scenes/load_scene.h"
 
-namespace obscura {
-namespace support {
-
-enum class Weighting { kCosine, kUniform };
+namespace obscura::support {
 
 // Ambient visibility on the real geometry, by ray tracing: the same integrals as those of the
 // screen-space reference, but rays meet the scene itself, also what the camera does not see.
 struct GeometricSettings {
-  Falloff falloff{};                         // any; exponential by default
-  int rays = 256;                            // [1, 2^20] per pixel and kind of output
-  Weighting weighting = Weighting::kCosine;  // of visibility
+  Falloff falloff{};                               // any; exponential by default
+  int rays = 256;                                  // [1, 2^20] per pixel and kind of output
+  RayWeighting weighting = RayWeighting::kCosine;  // of visibility
   int every = 1;  // [1, 1000]: trace pixels x, y with x % every == y % every == every / 2
   bool interpolate = false;  // fill the others from them; else they become NaN
   double offset = 0;         // world units by which rays start off the surface; 0: 1e-5 scene sizes
@@ -39,15 +37,6 @@ struct GeometricSettings {
 Status trace_geometric(const Rendering& rendering, const GeometricSettings& settings,
                        const Outputs& outputs, const RunOptions& options = {});
 
-}  // namespace support
-
-template <>
-struct EnumNames<support::Weighting> {
-  static constexpr const char* names[] = {"cosine", "uniform"};
-};
-
-namespace support {
-
 template <FieldsOf<GeometricSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
@@ -60,7 +49,6 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
 
-}  // namespace support
-}  // namespace obscura
+}  // namespace obscura::support
 
 #endif  // OBSCURA_SUPPORT_REFERENCE_GEOMETRIC_H_

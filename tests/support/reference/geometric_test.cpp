@@ -49,7 +49,7 @@ struct Result {
   std::vector<float> visibility, cone, error, bent, uniform, cosine;
 };
 
-GeometricSettings endless(int rays, Weighting weighting = Weighting::kCosine) {
+GeometricSettings endless(int rays, RayWeighting weighting = RayWeighting::kCosine) {
   GeometricSettings s;
   s.falloff.radius = kInf;
   s.rays = rays;
@@ -169,11 +169,11 @@ TEST(Geometric, InfiniteGrooveAndCornerByBothWeights) {
         Case{"scene:corner?size=12x8&guard-band=0&reach=2000", 0.25, 0.25}}) {
     const Rendering r = render(c.spec);
     Result result(r);
-    for (Weighting weighting : {Weighting::kCosine, Weighting::kUniform}) {
+    for (RayWeighting weighting : {RayWeighting::kCosine, RayWeighting::kUniform}) {
       GeometricSettings settings = endless(4096, weighting);
       settings.offset = 1e-3;
       ASSERT_TRUE(trace_geometric(r, settings, result.only_visibility()).ok());
-      const double expected = weighting == Weighting::kCosine ? c.cosine : c.uniform;
+      const double expected = weighting == RayWeighting::kCosine ? c.cosine : c.uniform;
       const Deviation d = deviation(r, result.visibility, [&](Vec3, Vec3) { return expected; });
       EXPECT_LT(std::abs(d.bias), 2 * kBias) << c.spec;
       EXPECT_LT(d.rms, kRms) << c.spec;
@@ -200,7 +200,7 @@ TEST(Geometric, WrongCosineIsNoticed) {
   const Rendering r = render("scene:groove?size=24x14&guard-band=0&angle=60");
   Result result(r);
   ASSERT_TRUE(
-      trace_geometric(r, endless(4096, Weighting::kUniform), result.only_visibility()).ok());
+      trace_geometric(r, endless(4096, RayWeighting::kUniform), result.only_visibility()).ok());
   const Deviation d = deviation(r, result.visibility, [](Vec3, Vec3) { return 0.25; });
   EXPECT_GT(std::abs(d.bias), 10 * kBias);
   EXPECT_GT(d.rms, kRms);

@@ -44,7 +44,7 @@ std::unique_ptr<Setup> make_setup(const LineSettings& settings, bool normals, in
 // Share of a sample of pixels that differ from the double-precision evaluation; taps on the border
 // of two texels may fall to either side.
 double share_wrong(const Setup& s) {
-  const reference::Line reference(s.geometry, s.settings, disk_pattern(s.settings.samples));
+  const reference::Line reference(s.geometry, s.settings, disk_pattern(s.settings.samples, false));
   int pixels = 0, wrong = 0;
   for (int y = 3; y < s.geometry.height; y += 31) {
     for (int x = 1; x < s.geometry.width; x += 13) {
@@ -59,7 +59,7 @@ double share_wrong(const Setup& s) {
 // The texels that the pattern fetches as it is, not reflected.
 double line_bound(const Setup& s) {
   const view::Geometry& g = s.geometry;
-  const std::vector<DiskSample> pattern = disk_pattern(s.settings.samples);
+  const std::span<const DiskSample> pattern = disk_pattern(s.settings.samples, false);
   const int lanes = tap_lanes(), middle = g.height / 2;
   return tap_bound_seconds(
       g.depth.row(middle), g.height, 11, [&](int y, std::vector<std::int32_t>* index) {

@@ -26,6 +26,7 @@ const std::vector<MethodEntry>& methods() {
       {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
        FarFieldSettings{}},
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
+      {"point", "Volumetric obscurance by point samples (Mittring 2007)", PointSettings{}},
       {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},
       {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",
        support::GeometricSettings{}},

@@ -8,13 +8,15 @@
 #include "obscura/far_field.h"
 #include "obscura/line.h"
 #include "obscura/outputs.h"
+#include "obscura/point.h"
 #include "obscura/reference.h"
 #include "obscura/status.h"
 
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings = std::variant<FarFieldSettings, LineSettings, ReferenceSettings>;
+using MethodSettings =
+    std::variant<FarFieldSettings, LineSettings, PointSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

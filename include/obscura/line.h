@@ -3,27 +3,45 @@
 
 #include <cstdint>
 
+#include "obscura/dual_radius.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
 
 namespace obscura {
+
+// Which sphere is integrated over.
+enum class SphereKind {
+  kCentered,  // around the receiver; with normals the half in front of the tangent plane
+  kTangent,   // of half the radius, touching the tangent plane (Szirmay-Kalos et al. 2009): what
+              // lies along the normal counts more, as under a cosine; needs normals
+};
+template <>
+struct EnumNames<SphereKind> {
+  static constexpr const char* names[] = {"centered", "tangent"};
+};
 
 // Volumetric obscurance by line samples (Loos and Sloan 2010, section 4.1): the share of a sphere
 // around the receiver that is free of matter, from lines along the view direction. With normals
 // only the half in front of the tangent plane counts, so that a plane of any tilt gives 1.
 struct LineSettings {
   Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the sphere's
-  Occluder occluder{};                              // solid or thickness
-  int samples = 9;                                  // [1, 32] lines per pixel
-  bool rotate = true;                               // random reflection of the pattern per pixel
-  bool blur = true;                                 // edge-aware separable blur of the result
-  std::uint32_t seed = 1;                           // of the random reflections
+  DualRadius dual{};
+  Occluder occluder{};                        // solid or thickness
+  SphereKind sphere = SphereKind::kCentered;  //
+  int samples = 9;                            // [1, 32] lines per pixel
+  bool center = false;                        // one of the lines passes through the receiver
+  bool rotate = true;                         // random reflection of the pattern per pixel
+  bool blur = true;                           // edge-aware separable blur of the result
+  std::uint32_t seed = 1;                     // of the random reflections
 };
 template <FieldsOf<LineSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
+  visit_fields(s.dual, v);
   v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.samples, Field{"samples", "lines per pixel", closed(1, 32), "Size of the pattern."});
+  v(s.sphere, Field{"sphere", "", {}, "Sphere around the receiver, or in front of its plane."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 32), "Size of the pattern."});
+  v(s.center, Field{"center", "", {}, "One sample lies at the pattern's centre."});
   v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
   v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});

@@ -7,22 +7,24 @@
 
 namespace obscura {
 
-// A tile of 64 x 64 random directions of the plane, for per-pixel reflections of sample patterns
-// (Loos and Sloan 2010, section 4.5). Each block of 4 x 4 holds one direction from each sixteenth
-// of the circle, in random order, so that a blur of that size sees all of them.
+// A tile of 64 x 64 random unit vectors of the plane or of space, for per-pixel reflections of
+// sample patterns (Loos and Sloan 2010, section 4.5). Each block of 4 x 4 holds one vector from
+// each sixteenth of the circle, and, in space, of the sphere's height, in random orders, so that a
+// blur of that size sees all of them.
 class ReflectionNoise {
  public:
   static constexpr int kSize = 64;
 
-  ReflectionNoise() = default;
-  explicit ReflectionNoise(std::uint32_t seed);
+  ReflectionNoise() = default;  // none: null pointers
+  explicit ReflectionNoise(std::uint32_t seed, bool space = false);
 
-  // Row by row; aligned for vectors.
-  const float* cosines() const { return cosines_.data(); }
-  const float* sines() const { return sines_.data(); }
+  // Row by row; aligned for vectors. z is there in space only.
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
 
  private:
-  AlignedImage<float> cosines_, sines_;
+  AlignedImage<float> x_, y_, z_;
 };
 
 }  // namespace obscura

@@ -5,18 +5,37 @@
 
 #include "core/text.h"
 #include "screen/blurred.h"
+#include "screen/dual.h"
 #include "screen/far_field/far_field.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
+#include "screen/point/point.h"
 #include "screen/reference/reference.h"
 
 namespace obscura {
 namespace {
 
-Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  if (Status status = make_line(s, m); !status.ok()) return status;
+// A method of volumetric obscurance with what may be around it: a second radius and the blur.
+template <class Settings, class Make>
+Status make_volumetric(const Settings& s, Make make, int w, int h, std::unique_ptr<Method>* m) {
+  if (Status status = validate(s.dual); !status.ok()) return status;
+  if (Status status = make(s, m); !status.ok()) return status;
+  if (s.dual.second_radius) {
+    Settings other = s;
+    other.falloff.radius = *s.dual.second_radius;
+    std::unique_ptr<Method> second;
+    if (Status status = make(other, &second); !status.ok()) return status;
+    *m = make_dual(std::move(*m), std::move(second), s.dual.combine, w, h);
+  }
   if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
   return {};
+}
+
+Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  return make_volumetric(s, make_line, w, h, m);
+}
+Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  return make_volumetric(s, make_point, w, h, m);
 }
 
 Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>* m) {

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/reflection_noise.h"
-#include "math/disk_pattern.h"
 #include "obscura/line.h"
+#include "obscura/patterns.h"
 #include "view/geometry.h"
 
 // Volumetric obscurance once more, pixel by pixel in double precision and along another way: the
@@ -41,8 +42,8 @@ inline long long nearest(double v) { return std::llrint(std::clamp(v, -131072.0,
 class Line {
  public:
   Line(const view::Geometry& geometry, const LineSettings& settings,
-       std::vector<DiskSample> samples)
-      : g(geometry), s(settings), pattern(std::move(samples)), noise(settings.seed) {}
+       std::span<const DiskSample> samples)
+      : g(geometry), s(settings), pattern(samples), noise(settings.seed) {}
 
   // Of visible pixel (px, py).
   double visibility(int px, int py) const {
@@ -78,8 +79,8 @@ class Line {
     const float reach_x = s.falloff.radius / c.scale_x / distance;
     const float reach_y = s.falloff.radius / c.scale_y / distance;
     const int tile = ReflectionNoise::kSize;
-    const double cosine = noise.cosines()[py % tile * tile + px % tile];
-    const double sine = noise.sines()[py % tile * tile + px % tile];
+    const double cosine = noise.x()[py % tile * tile + px % tile];
+    const double sine = noise.y()[py % tile * tile + px % tile];
     double weights = 0, open = 0, whole = 0;
     for (const DiskSample& p : pattern) {
       const double lateral = std::hypot(p.x, p.y);
@@ -117,7 +118,7 @@ class Line {
  private:
   const view::Geometry& g;
   const LineSettings s;
-  const std::vector<DiskSample> pattern;
+  const std::span<const DiskSample> pattern;
   const ReflectionNoise noise;
 };
 

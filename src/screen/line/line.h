@@ -2,10 +2,10 @@
 #define OBSCURA_SRC_SCREEN_LINE_LINE_H_
 
 #include <memory>
-#include <vector>
+#include <span>
 
-#include "math/disk_pattern.h"
 #include "obscura/line.h"
+#include "obscura/patterns.h"
 #include "screen/method.h"
 
 namespace obscura {
@@ -21,7 +21,7 @@ Status make_line(const LineSettings& settings, std::unique_ptr<Method>* method);
 
 // The same with another pattern, of 1 to 32 samples inside the unit disk; `settings.samples` does
 // not count.
-Status make_line_with(const LineSettings& settings, const std::vector<DiskSample>& pattern,
+Status make_line_with(const LineSettings& settings, std::span<const DiskSample> pattern,
                       std::unique_ptr<Method>* method);
 
 }  // namespace obscura

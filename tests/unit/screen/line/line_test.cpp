@@ -77,7 +77,7 @@ TEST(Line, EveryTargetAgreesWithScalar) {
 
     view::Geometry g;
     ASSERT_TRUE(view::convert(field, {.normals = true}, *executor, &g).ok());
-    const reference::Line reference(g, s, disk_pattern(s.samples));
+    const reference::Line reference(g, s, disk_pattern(s.samples, false));
     std::vector<double> expected;
     double sum = 0;
     for (int y = 0; y < g.visible_height(); ++y) {
@@ -109,7 +109,7 @@ TEST(Line, EveryTargetAgreesWithScalar) {
 }
 
 std::vector<float> run(const DepthField& field, const LineSettings& s,
-                       const std::vector<DiskSample>& pattern) {
+                       std::span<const DiskSample> pattern) {
   std::unique_ptr<Executor> executor = make_executor(1);
   view::Geometry g;
   EXPECT_TRUE(view::convert(field, {.normals = true}, *executor, &g).ok());
@@ -132,13 +132,13 @@ TEST(Line, MirroredInputGivesMirroredOutput) {
   LineSettings s;
   s.falloff.radius = 0.5f;
   s.rotate = false;
-  std::vector<DiskSample> pattern = disk_pattern(9);
+  const std::span<const DiskSample> pattern = disk_pattern(9, false);
   Camera camera = Camera::perspective(0.8f, width, height);
   for (const bool normals : {false, true}) {
     DepthField field = field_of(depth, width, height, camera);
     field.normal_use = normals ? NormalUse::kAuto : NormalUse::kNone;
     const std::vector<float> a = run(field, s, pattern);
-    std::vector<DiskSample> other = pattern;
+    std::vector<DiskSample> other(pattern.begin(), pattern.end());
     for (DiskSample& p : other) p.x = -p.x;
     field.depth.data = mirrored.data();
     const std::vector<float> b = run(field, s, other);
@@ -172,7 +172,7 @@ TEST(Line, LargeImagesAreIndexedExactly) {
     const int w = g.visible_width(), h = g.visible_height();
     std::vector<float> result(static_cast<std::size_t>(w) * h);
     ASSERT_TRUE(method->run(g, {.visibility = {result.data(), w, h}}, {*executor, {}}).ok());
-    const reference::Line reference(g, s, disk_pattern(s.samples));
+    const reference::Line reference(g, s, disk_pattern(s.samples, false));
     int different = 0;
     for (int i = 0; i < w * h; ++i) {
       different += std::abs(result[i] - reference.visibility(i % w, i / w)) > 1e-4;

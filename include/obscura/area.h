@@ -1,0 +1,39 @@
+#ifndef OBSCURA_AREA_H_
+#define OBSCURA_AREA_H_
+
+#include <cstdint>
+
+#include "obscura/dual_radius.h"
+#include "obscura/falloff.h"
+#include "obscura/occluder.h"
+
+namespace obscura {
+
+// Volumetric obscurance by area samples (Loos and Sloan 2010, section 4.2): the mean and deviation
+// of the depths over each sample's share of the disk, from a pyramid of moments, stand for the
+// depths themselves, as a box of half-width one deviation around the mean.
+struct AreaSettings {
+  Falloff falloff{.kind = FalloffKind::kConstant};  // constant; radius: the sphere's
+  DualRadius dual{};
+  Occluder occluder{};     // solid or thickness
+  int samples = 1;         // [1, 16] per pixel
+  bool center = false;     // one of the samples lies at the receiver
+  bool rotate = true;      // random reflection of the pattern per pixel
+  bool blur = false;       // edge-aware separable blur of the result
+  std::uint32_t seed = 1;  // of the random reflections
+};
+template <FieldsOf<AreaSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  visit_fields(s.dual, v);
+  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 16), "Size of the pattern."});
+  v(s.center, Field{"center", "", {}, "One sample lies at the pattern's centre."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
+  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_AREA_H_

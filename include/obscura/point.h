@@ -1,0 +1,49 @@
+#ifndef OBSCURA_POINT_H_
+#define OBSCURA_POINT_H_
+
+#include <cstdint>
+
+#include "obscura/dual_radius.h"
+#include "obscura/falloff.h"
+#include "obscura/occluder.h"
+
+namespace obscura {
+
+// Where point samples lie.
+enum class PointPattern {
+  kBall,    // in the ball around the receiver, tested for being behind the depth image (Crytek3D)
+  kScreen,  // on the disk around the receiver's pixel: the surface point found there occludes if it
+            // lies in the sphere and in front of the tangent plane (Crytek2D)
+};
+template <>
+struct EnumNames<PointPattern> {
+  static constexpr const char* names[] = {"ball", "screen"};
+};
+
+// Volumetric obscurance by point samples (Mittring 2007; Filion and McNaughton 2008; Loos and Sloan
+// 2010, section 4). With normals, samples behind the tangent plane are reflected to its front.
+struct PointSettings {
+  Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the ball's
+  DualRadius dual{};
+  Occluder occluder{};                         // solid or thickness; screen: solid
+  PointPattern pattern = PointPattern::kBall;  //
+  int samples = 12;                            // [1, 64] points per pixel; screen: [1, 32]
+  bool rotate = true;                          // random reflection of the pattern per pixel
+  bool blur = true;                            // edge-aware separable blur of the result
+  std::uint32_t seed = 1;                      // of the random reflections
+};
+template <FieldsOf<PointSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  visit_fields(s.dual, v);
+  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
+  v(s.pattern, Field{"pattern", "", {}, "Samples in the ball or on the screen."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 64), "Size of the pattern."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
+  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_POINT_H_

@@ -13,7 +13,7 @@
 
 namespace obscura::app {
 
-inline constexpr const char* kDefaultMethod = "line";
+inline constexpr const char* kDefaultMethod = "far-field";
 
 // The library's methods and the truth on the real geometry, which needs a scene or mesh.
 using AnySettings = std::variant<MethodSettings, support::GeometricSettings>;

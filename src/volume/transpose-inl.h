@@ -56,6 +56,30 @@ HWY_INLINE void UnskewFloats(const float* HWY_RESTRICT from, float* HWY_RESTRICT
   for (int j = 0; j < kRows; ++j) hn::StoreU(v[j], d, to + j * pitch);
 }
 
+// Writes column i = 0 ... 15 of kRows rows of bytes to to[i * kRows...].
+template <int kRows>
+HWY_INLINE void SkewBytes(const std::uint8_t* HWY_RESTRICT from, std::ptrdiff_t pitch,
+                          std::uint8_t* HWY_RESTRICT to) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::Full128<std::uint8_t> d;
+  hn::Vec<hn::Full128<std::uint8_t>> v[kRows];
+  for (int j = 0; j < kRows; ++j) v[j] = hn::LoadU(d, from + j * pitch);
+  PerfectShuffle<kRows, Log2(kRows)>(d, v);
+  for (int j = 0; j < kRows; ++j) hn::Store(v[j], d, to + 16 * j);
+}
+
+// The reverse.
+template <int kRows>
+HWY_INLINE void UnskewBytes(const std::uint8_t* HWY_RESTRICT from, std::uint8_t* HWY_RESTRICT to,
+                            std::ptrdiff_t pitch) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::Full128<std::uint8_t> d;
+  hn::Vec<hn::Full128<std::uint8_t>> v[kRows];
+  for (int j = 0; j < kRows; ++j) v[j] = hn::Load(d, from + 16 * j);
+  PerfectShuffle<kRows, 4>(d, v);
+  for (int j = 0; j < kRows; ++j) hn::StoreU(v[j], d, to + j * pitch);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
 HWY_AFTER_NAMESPACE();

@@ -1,0 +1,55 @@
+#ifndef OBSCURA_SRC_VOLUME_OCCLUSION_KERNEL_H_
+#define OBSCURA_SRC_VOLUME_OCCLUSION_KERNEL_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace obscura {
+
+// How a direction's visibility comes from the voxels before it.
+enum class Stencil {
+  kUpwind,          // mean of three neighbours (equation 6, any weights)
+  kCharacteristic,  // bilinear on the face of the cell that the direction's ray comes through
+};
+
+// A direction of the first octant, in the grid's index space, and what its stencil needs.
+struct SweepDirection {
+  std::array<float, 3> direction{};  // unit, in world space
+  float weight = 0;                  // of the octant's mean; they sum to 1
+  Stencil stencil = Stencil::kUpwind;
+  int axis = 0;      // kCharacteristic: axis across which the ray comes
+  float first = 0;   // kUpwind: weights of the x and y neighbours; kCharacteristic: shift of the
+  float second = 0;  // ray on the face along the other two axes, in rising order, in [0, 1]
+};
+
+inline constexpr int kMaxDirections = 6;
+
+// Sweeps the four octants with light from one side of z through a grid of transmittances.
+struct OcclusionSweep {
+  const std::uint8_t* tau = nullptr;  // dense, x fastest; 255 is open
+  std::array<int, 3> size{};
+  bool rising = true;  // z rises along the light: it comes from the negative side
+  const SweepDirection* directions = nullptr;
+  int count = 0;  // of directions, 1 ... kMaxDirections
+  // Visibility at each voxel, 255 is open: channel quadrant * count + direction, where bit 0 or 1
+  // of the quadrant is set for light from the positive side of x or y.
+  std::uint8_t* visibility = nullptr;
+};
+void sweep_occlusion_u8(const OcclusionSweep& sweep);
+
+// The same in floats by plain loops, with one quadrant and direction per call; `visibility` is that
+// channel, `step` floats from voxel to voxel.
+void sweep_occlusion_f32(const float* tau, const std::array<int, 3>& size,
+                         const std::array<bool, 3>& from_positive, const SweepDirection& direction,
+                         float* visibility, std::ptrdiff_t step);
+
+// tau of a row of coarse voxels from the sum of the distances in each: 255 clamp(sum s + 1/2), and
+// its opacity times alpha (equations 7 and 8). `rows` are rows of distances, `cell` along x.
+void transmittance_row(const float* const* rows, int row_count, std::ptrdiff_t stride, int width,
+                       int cell, float scale, float alpha, std::uint8_t* tau);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_VOLUME_OCCLUSION_KERNEL_H_

@@ -25,6 +25,8 @@ const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
        FarFieldSettings{}},
+      {"hemisphere", "Directions marched in depth: bent normals and cones (Klehm et al. 2011)",
+       HemisphereSettings{}},
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
       {"point", "Volumetric obscurance by point samples (Mittring 2007)", PointSettings{}},
       {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},

@@ -6,6 +6,7 @@
 
 #include "obscura/depth_field.h"
 #include "obscura/far_field.h"
+#include "obscura/hemisphere.h"
 #include "obscura/line.h"
 #include "obscura/outputs.h"
 #include "obscura/point.h"
@@ -15,8 +16,8 @@
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings =
-    std::variant<FarFieldSettings, LineSettings, PointSettings, ReferenceSettings>;
+using MethodSettings = std::variant<FarFieldSettings, HemisphereSettings, LineSettings,
+                                    PointSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

@@ -12,6 +12,7 @@
 #include "obscura/executor.h"
 #include "obscura/falloff.h"
 #include "obscura/far_field.h"
+#include "obscura/hemisphere.h"
 #include "obscura/lighting.h"
 #include "obscura/line.h"
 #include "obscura/occluder.h"

@@ -7,6 +7,7 @@
 #include "screen/blurred.h"
 #include "screen/dual.h"
 #include "screen/far_field/far_field.h"
+#include "screen/hemisphere/hemisphere.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
 #include "screen/point/point.h"
@@ -40,6 +41,10 @@ Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>
 
 Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>* m) {
   return make_far_field(s, m);
+}
+
+Status make_method(const HemisphereSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  return make_hemisphere(s, w, h, m);
 }
 
 Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {

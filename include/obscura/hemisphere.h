@@ -1,0 +1,45 @@
+#ifndef OBSCURA_HEMISPHERE_H_
+#define OBSCURA_HEMISPHERE_H_
+
+#include <cstdint>
+
+#include "obscura/cone.h"
+#include "obscura/falloff.h"
+#include "obscura/occluder.h"
+#include "obscura/reference.h"
+
+namespace obscura {
+
+// Directions over the hemisphere, each tested at a few points in depth (Crytek3D of bent normals
+// and cones, Klehm et al. 2011, section 4): visibility, bent normal and cone from the same samples.
+// The pattern is interleaved: m x m neighbours use different directions and offsets, and a blur of
+// that size, which works on the difference between bent normal and normal, puts them together.
+struct HemisphereSettings {
+  Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the sphere's
+  Occluder occluder{};                              // solid or thickness
+  int samples = 8;                                  // directions per pixel
+  int steps = 3;                                    // ray-marching steps before each sample
+  int interleave = 4;                               // m
+  bool blur = true;
+  RayWeighting weighting = RayWeighting::kCosine;  // of visibility; the paper's: uniform
+  ConeEstimate cone = ConeEstimate::kExact;
+  std::uint32_t seed = 1;
+};
+template <FieldsOf<HemisphereSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 64), "Size of the pattern."});
+  v(s.steps, Field{"steps", "per sample", closed(0, 8),
+                   "Ray-marching steps between the receiver and each sample."});
+  v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
+                        "Size m of the m x m pixels that share one larger pattern."});
+  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+  v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
+  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_HEMISPHERE_H_

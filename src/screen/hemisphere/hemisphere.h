@@ -1,0 +1,17 @@
+#ifndef OBSCURA_SRC_SCREEN_HEMISPHERE_HEMISPHERE_H_
+#define OBSCURA_SRC_SCREEN_HEMISPHERE_HEMISPHERE_H_
+
+#include <memory>
+
+#include "obscura/hemisphere.h"
+#include "screen/method.h"
+
+namespace obscura {
+
+// See obscura/hemisphere.h. `width` x `height` is the largest image to come.
+Status make_hemisphere(const HemisphereSettings& settings, int width, int height,
+                       std::unique_ptr<Method>* method);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_SCREEN_HEMISPHERE_HEMISPHERE_H_

@@ -1,0 +1,352 @@
+#include <limits>
+
+#include "screen/hemisphere/hemisphere_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "screen/hemisphere/hemisphere_simd.cpp"
+#include "hwy/foreach_target.h"
+// After foreach_target.
+#include "core/gather-inl.h"
+#include "hwy/contrib/math/math-inl.h"
+#include "hwy/highway.h"
+#include "math/cone-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace obscura {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using hemisphere::BlurRow;
+using hemisphere::Frame;
+using hemisphere::kChannels;
+using hemisphere::Results;
+using hemisphere::Sums;
+using D = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+constexpr int kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+struct Vector {
+  V x, y, z;
+};
+HWY_INLINE V Dot(const Vector& a, const Vector& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+// A receiver and the two tangents that complete its normal (Duff et al. 2017).
+struct Receiver {
+  V x, y, z;  // eye space; z is depth
+  Vector n, t, b;
+  V plane;  // n.p
+  V slack;  // heights above the tangent plane that are rounding
+};
+
+HWY_INLINE Receiver MakeReceiver(const Frame& f, int x, float ray_y, V z, const Vector& n) {
+  const D d;
+  const V one = hn::Set(d, 1.0f);
+  Receiver r;
+  const V u = hn::ConvertTo(d, hn::Iota(DI(), x));
+  const V a = hn::Mul(hn::Add(u, hn::Set(d, 0.5f - f.center_u)), hn::Set(d, f.scale_x));
+  const V away = f.orthographic ? one : z;
+  r.x = hn::Mul(a, away);
+  r.y = hn::Mul(hn::Set(d, ray_y), away);
+  r.z = z;
+  r.n = n;
+  const V sign = hn::CopySign(one, n.z);
+  const V k = hn::Div(hn::Set(d, -1.0f), hn::Add(sign, n.z));
+  const V xy = hn::Mul(hn::Mul(n.x, n.y), k);
+  r.t = {hn::MulAdd(hn::Mul(sign, n.x), hn::Mul(n.x, k), one), hn::Mul(sign, xy),
+         hn::Neg(hn::Mul(sign, n.x))};
+  r.b = {xy, hn::MulAdd(hn::Mul(n.y, n.y), k, sign), hn::Neg(n.y)};
+  r.plane = Dot(n, {r.x, r.y, hn::Neg(z)});
+  r.slack = hn::Mul(z, hn::Set(d, 1e-5f));
+  return r;
+}
+
+// Whether the point at distance t along w lies behind what the depth image holds there. The point
+// is moved to the view ray of its texel, parallel to the tangent plane, so that a plane of any tilt
+// never occludes itself: with q the surface point on that ray, it is behind if n.(q - p) > t n.w.
+HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine, V t, M valid) {
+  const D d;
+  const DI di;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+  const V z = hn::NegMulAdd(t, w.z, r.z);
+  const V x = hn::MulAdd(t, w.x, r.x), y = hn::MulAdd(t, w.y, r.y);
+  const V away = f.orthographic ? one : hn::Div(one, z);
+  const V u = hn::MulAdd(hn::Mul(x, away), hn::Set(d, 1 / f.scale_x), hn::Set(d, f.center_u));
+  const V v = hn::NegMulAdd(hn::Mul(y, away), hn::Set(d, 1 / f.scale_y), hn::Set(d, f.center_v));
+  const V uf = hn::Floor(u), vf = hn::Floor(v);
+  // What lies behind the camera or outside the image is open.
+  M inside = hn::And(hn::Ge(uf, zero), hn::Lt(uf, hn::Set(d, static_cast<float>(f.width))));
+  inside = hn::And(inside,
+                   hn::And(hn::Ge(vf, zero), hn::Lt(vf, hn::Set(d, static_cast<float>(f.height)))));
+  inside = hn::And(hn::And(inside, hn::Gt(z, zero)), valid);
+  const VI ix = hn::ConvertTo(di, hn::IfThenElseZero(inside, uf));
+  const VI iy =
+      hn::Sub(hn::ConvertTo(di, hn::IfThenElseZero(inside, vf)), hn::Set(di, f.height / 2));
+  // Indices count from the middle row: 65535 rows of 65536 floats just fit 32 bits.
+  HWY_ALIGN std::int32_t index[kMaxLanes];
+  hn::Store(hn::Add(hn::Mul(iy, hn::Set(di, static_cast<std::int32_t>(f.stride))), ix), di, index);
+  const V depth = GatherLanes(d, f.depth + (f.height / 2) * f.stride, index);
+
+  const V a = hn::Mul(hn::Sub(hn::Add(uf, half), hn::Set(d, f.center_u)), hn::Set(d, f.scale_x));
+  const V b = hn::Mul(hn::Sub(hn::Set(d, f.center_v - 0.5f), vf), hn::Set(d, f.scale_y));
+  const V across = hn::MulAdd(r.n.x, a, hn::Mul(r.n.y, b));
+  // n.q, and how the height above the plane grows with depth along the texel's ray.
+  const V slope = f.orthographic ? hn::Neg(r.n.z) : hn::Sub(across, r.n.z);
+  const V q = f.orthographic ? hn::NegMulAdd(r.n.z, depth, across) : hn::Mul(depth, slope);
+  const V height = hn::MulAdd(t, cosine, hn::Add(r.plane, r.slack));
+  // A ray that runs away from the plane bounds nothing: there depths decide.
+  const M bounded = hn::Lt(slope, zero);
+  M behind = hn::Or(hn::And(bounded, hn::Gt(q, height)), hn::AndNot(bounded, hn::Lt(depth, z)));
+  if (f.thickness > 0) {
+    // Thickness counts along the texel's ray.
+    const V length = f.orthographic ? one : hn::Sqrt(hn::MulAdd(a, a, hn::MulAdd(b, b, one)));
+    const V back = hn::Add(depth, hn::Div(hn::Set(d, f.thickness), length));
+    behind = hn::And(behind, hn::Lt(z, back));
+  }
+  return hn::And(behind, inside);
+}
+
+template <bool kDirections>
+void SumPixels(const Frame& f, int row, int width, const Sums& out) {
+  const D d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const int y = f.top + row;
+  const float ray_y = (f.center_v - (static_cast<float>(y) + 0.5f)) * f.scale_y;
+  const std::ptrdiff_t row_at = y * f.stride + f.left;
+  const int tile_y = row % f.interleave;
+  const V stratum = hn::Set(d, 1.0f / static_cast<float>(f.samples));
+  const V step = hn::Set(d, f.radius / static_cast<float>(f.tests));
+  const V inverse_radius = hn::Set(d, 1 / f.radius);
+  for (int x = 0; x < width; x += lanes) {
+    const V z = hn::LoadU(d, f.depth + row_at + x);
+    const M valid = hn::And(hn::Lt(z, hn::Set(d, kInf)), hn::Gt(z, zero));
+    const Vector n{hn::LoadU(d, f.normal[0] + row_at + x), hn::LoadU(d, f.normal[1] + row_at + x),
+                   hn::LoadU(d, f.normal[2] + row_at + x)};
+    const Receiver r = MakeReceiver(f, f.left + x, ray_y, hn::IfThenElse(valid, z, one), n);
+    const int tile_x = x % f.interleave;
+    auto tile = [&](int value) HWY_ATTR { return hn::LoadU(d, f.tile[value][tile_y] + tile_x); };
+    const V tile_cos = tile(hemisphere::kTileCos), tile_sin = tile(hemisphere::kTileSin);
+    const V shift = tile(hemisphere::kTileShift), tile_offset = tile(hemisphere::kTileOffset);
+
+    V open = zero, open_cosine = zero;
+    Vector sum{zero, zero, zero}, sum_cosine{zero, zero, zero};
+    for (int i = 0; i < f.samples; ++i) {
+      // Strata of equal solid angle in height, the golden angle in azimuth.
+      const V cosine =
+          hn::NegMulAdd(hn::Add(hn::Set(d, static_cast<float>(i)), shift), stratum, one);
+      const V sine = hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, one), zero));
+      const V c = hn::Set(d, f.cosine[i]), s = hn::Set(d, f.sine[i]);
+      const V lx = hn::Mul(sine, hn::MulSub(c, tile_cos, hn::Mul(s, tile_sin)));
+      const V ly = hn::Mul(sine, hn::MulAdd(s, tile_cos, hn::Mul(c, tile_sin)));
+      const Vector w{hn::MulAdd(lx, r.t.x, hn::MulAdd(ly, r.b.x, hn::Mul(cosine, r.n.x))),
+                     hn::MulAdd(lx, r.t.y, hn::MulAdd(ly, r.b.y, hn::Mul(cosine, r.n.y))),
+                     hn::MulAdd(lx, r.t.z, hn::MulAdd(ly, r.b.z, hn::Mul(cosine, r.n.z)))};
+      V offset = hn::Add(hn::Set(d, f.offset[i]), tile_offset);
+      offset = hn::Sub(offset, hn::Floor(offset));
+
+      V visible = one;
+      M free = valid;
+      for (int k = 0; k < f.tests; ++k) {
+        const V t = hn::Mul(hn::Add(hn::Set(d, static_cast<float>(k)), offset), step);
+        const M behind = Behind(f, r, w, cosine, t, free);
+        // V = 1 - rho at the first point that is behind.
+        V rest = zero;
+        if (f.quadratic) {
+          const V near = hn::NegMulAdd(t, inverse_radius, one);
+          rest = hn::NegMulAdd(near, near, one);
+        }
+        visible = hn::IfThenElse(behind, rest, visible);
+        free = hn::AndNot(behind, free);
+      }
+      const V weighted = hn::Mul(visible, cosine);
+      open = hn::Add(open, visible);
+      open_cosine = hn::Add(open_cosine, weighted);
+      if constexpr (kDirections) {
+        sum = {hn::MulAdd(visible, w.x, sum.x), hn::MulAdd(visible, w.y, sum.y),
+               hn::MulAdd(visible, w.z, sum.z)};
+        sum_cosine = {hn::MulAdd(weighted, w.x, sum_cosine.x),
+                      hn::MulAdd(weighted, w.y, sum_cosine.y),
+                      hn::MulAdd(weighted, w.z, sum_cosine.z)};
+      }
+    }
+    auto store = [&](float* const to[kChannels], V whole, const Vector& v, V by,
+                     int means) HWY_ATTR {
+      const V mean = hn::Mul(whole, by);
+      if (to[0]) hn::StoreU(mean, d, to[0] + x);
+      if (!kDirections || !to[1]) return;
+      const V a = hn::Mul(mean, tile(means)), b = hn::Mul(mean, tile(means + 1));
+      const V c = hn::Mul(mean, tile(means + 2));
+      auto rest = [&](V total, V along_t, V along_b, V along_n) HWY_ATTR {
+        return hn::NegMulAdd(
+            a, along_t, hn::NegMulAdd(b, along_b, hn::NegMulAdd(c, along_n, hn::Mul(total, by))));
+      };
+      hn::StoreU(rest(v.x, r.t.x, r.b.x, n.x), d, to[1] + x);
+      hn::StoreU(rest(v.y, r.t.y, r.b.y, n.y), d, to[2] + x);
+      hn::StoreU(rest(v.z, r.t.z, r.b.z, n.z), d, to[3] + x);
+    };
+    store(out.uniform, open, sum, stratum, hemisphere::kTileMean);
+    store(out.cosine, open_cosine, sum_cosine, hn::Div(one, tile(hemisphere::kTileCosineSum)),
+          hemisphere::kTileCosineMean);
+  }
+}
+
+void SumRow(const Frame& f, int row, int width, const Sums& sums) {
+  sums.uniform[1] || sums.cosine[1] ? SumPixels<true>(f, row, width, sums)
+                                    : SumPixels<false>(f, row, width, sums);
+}
+
+HWY_INLINE M IsSurface(V s) {
+  const D d;
+  return hn::And(hn::Gt(s, hn::Zero(d)), hn::Lt(s, hn::Set(d, kInf)));
+}
+
+// As the one-channel blur of filters/, with normals: taps count by how near their surface lies to
+// the continuation of the receiver's, and by how alike the normals are.
+template <int kCount>
+void BlurPixels(const BlurRow& row, int width) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Set(d, kInf);
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const bool before_inside = row.first_tap < 0;
+  const bool after_inside = row.last_tap > 0;
+  for (int x = 0; x < width; x += lanes) {
+    const float* surface = row.surface + x;
+    const V s0 = hn::LoadU(d, surface);
+    auto difference = [&](bool inside, std::ptrdiff_t step, float sign) HWY_ATTR {
+      if (!inside) return inf;
+      const V s = hn::LoadU(d, surface + step);
+      return hn::IfThenElse(IsSurface(s), hn::Mul(hn::Sub(s, s0), hn::Set(d, sign)), inf);
+    };
+    const V after = difference(after_inside, row.surface_step, 1.0f);
+    const V before = difference(before_inside, -row.surface_step, -1.0f);
+    V slope = hn::IfThenElse(hn::Le(hn::Abs(after), hn::Abs(before)), after, before);
+    slope = hn::IfThenElseZero(hn::Lt(hn::Abs(slope), inf), slope);
+    V per_edge = hn::Set(d, 1 / row.edge);
+    if (!row.orthographic) per_edge = hn::Div(per_edge, hn::Mul(s0, s0));
+    const V nx = hn::LoadU(d, row.normal[0] + x), ny = hn::LoadU(d, row.normal[1] + x);
+    const V nz = hn::LoadU(d, row.normal[2] + x);
+
+    V sum[kCount], weight_sum = hn::Set(d, row.weights[0]);
+    for (int c = 0; c < kCount; ++c) sum[c] = hn::Mul(weight_sum, hn::LoadU(d, row.values[c] + x));
+    for (int k = row.first_tap; k <= row.last_tap; ++k) {
+      if (k == 0) continue;
+      const V s = hn::LoadU(d, surface + k * row.surface_step);
+      const V gap =
+          hn::Mul(hn::Sub(s, hn::MulAdd(slope, hn::Set(d, static_cast<float>(k)), s0)), per_edge);
+      const V near = hn::NegMulAdd(gap, gap, one);
+      const std::ptrdiff_t at = x + k * row.normal_step;
+      const V alike = hn::MulAdd(nx, hn::LoadU(d, row.normal[0] + at),
+                                 hn::MulAdd(ny, hn::LoadU(d, row.normal[1] + at),
+                                            hn::Mul(nz, hn::LoadU(d, row.normal[2] + at))));
+      const auto counts = hn::And(hn::And(IsSurface(s), hn::Gt(near, zero)), hn::Gt(alike, zero));
+      const V sharp = hn::Mul(alike, alike);
+      const V w =
+          hn::IfThenElseZero(counts, hn::Mul(hn::Mul(hn::Mul(near, near), hn::Mul(sharp, sharp)),
+                                             hn::Set(d, row.weights[k < 0 ? -k : k])));
+      weight_sum = hn::Add(weight_sum, w);
+      for (int c = 0; c < kCount; ++c) {
+        sum[c] = hn::MulAdd(w, hn::LoadU(d, row.values[c] + x + k * row.value_step), sum[c]);
+      }
+    }
+    const V scale = hn::Div(one, weight_sum);
+    for (int c = 0; c < kCount; ++c) hn::StoreU(hn::Mul(sum[c], scale), d, row.out[c] + x);
+  }
+}
+
+void Blur(const BlurRow& row, int width) {
+  row.channels == 1 ? BlurPixels<1>(row, width) : BlurPixels<kChannels>(row, width);
+}
+
+HWY_INLINE Vector Rebuild(const float* const sums[kChannels], const Vector& n, float of_normal,
+                          int x) {
+  const D d;
+  const V along = hn::Mul(hn::LoadU(d, sums[0] + x), hn::Set(d, of_normal));
+  return {hn::MulAdd(along, n.x, hn::LoadU(d, sums[1] + x)),
+          hn::MulAdd(along, n.y, hn::LoadU(d, sums[2] + x)),
+          hn::MulAdd(along, n.z, hn::LoadU(d, sums[3] + x))};
+}
+
+HWY_INLINE void StoreVector(const Vector& v, float* const to[3], int x) {
+  const D d;
+  if (!to[0]) return;
+  hn::StoreU(v.x, d, to[0] + x);
+  hn::StoreU(v.y, d, to[1] + x);
+  hn::StoreU(v.z, d, to[2] + x);
+}
+
+HWY_INLINE void StoreVisibility(V v, float* to, int x) {
+  const D d;
+  if (to) hn::StoreU(hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f)), d, to + x);
+}
+
+void FinishUniform(const float* const sums[kChannels], const float* const normal[3], bool paper,
+                   int width, const Results& out) {
+  const D d;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
+    const V open = hn::LoadU(d, sums[0] + x);
+    StoreVisibility(open, out.visibility, x);
+    if (!sums[1]) continue;
+    const Vector n{hn::LoadU(d, normal[0] + x), hn::LoadU(d, normal[1] + x),
+                   hn::LoadU(d, normal[2] + x)};
+    const Vector s = Rebuild(sums, n, 0.5f, x);
+    const BentCone<V> cone =
+        FinishCone(d, paper, DirectionSums<V>{s.x, s.y, s.z, open}, n.x, n.y, n.z);
+    StoreVector({cone.x, cone.y, cone.z}, out.direction, x);
+    if (out.angle) hn::StoreU(cone.angle, d, out.angle + x);
+    // 1/pi integral of V w = 2 mean V w.
+    const V two = hn::Set(d, 2.0f);
+    StoreVector({hn::Mul(two, s.x), hn::Mul(two, s.y), hn::Mul(two, s.z)}, out.integral, x);
+  }
+}
+
+void FinishCosine(const float* const sums[kChannels], const float* const normal[3], int width,
+                  const Results& out) {
+  const D d;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
+    StoreVisibility(hn::LoadU(d, sums[0] + x), out.visibility, x);
+    if (!sums[1]) continue;
+    const Vector n{hn::LoadU(d, normal[0] + x), hn::LoadU(d, normal[1] + x),
+                   hn::LoadU(d, normal[2] + x)};
+    StoreVector(Rebuild(sums, n, 2.0f / 3, x), out.integral, x);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace obscura
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace obscura {
+namespace {
+HWY_EXPORT(SumRow);
+HWY_EXPORT(Blur);
+HWY_EXPORT(FinishUniform);
+HWY_EXPORT(FinishCosine);
+}  // namespace
+
+namespace hemisphere {
+
+void sum_row(const Frame& frame, int row, int width, const Sums& sums) {
+  HWY_DYNAMIC_DISPATCH(SumRow)(frame, row, width, sums);
+}
+void blur_row(const BlurRow& row, int width) { HWY_DYNAMIC_DISPATCH(Blur)(row, width); }
+void finish_uniform_row(const float* const sums[kChannels], const float* const normal[3],
+                        bool paper_cone, int width, const Results& results) {
+  HWY_DYNAMIC_DISPATCH(FinishUniform)(sums, normal, paper_cone, width, results);
+}
+void finish_cosine_row(const float* const sums[kChannels], const float* const normal[3], int width,
+                       const Results& results) {
+  HWY_DYNAMIC_DISPATCH(FinishCosine)(sums, normal, width, results);
+}
+
+}  // namespace hemisphere
+}  // namespace obscura
+#endif

@@ -62,7 +62,10 @@ Status run_ao(const AoCommand& c, bool quiet) {
 
   support::WriteOptions write;
   write.half = c.half;
-  if (c.keep_channels) write.keep_channels_of = c.input.path();
+  if (c.keep_channels) {
+    write.keep_channels_of = c.input.path();
+    write.kept_guard_band = field.guard_band;
+  }
   if (Status s = support::write_image(c.output, images.image(), write); !s.ok()) return s;
   const double total = watch.seconds();
 

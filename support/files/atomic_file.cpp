@@ -10,6 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <new>
 
 #include "fmt/format.h"
 
@@ -45,29 +46,51 @@ mode_t wanted_mode(const std::string& path) {
   return 0666 & ~mask;
 }
 
+// Runs `write` on the file `temporary`, which messages shall call `path`.
+Status attempt(const std::string& path, const std::string& temporary,
+               const std::function<Status(const std::string&)>& write) {
+  Status status;
+  try {
+    status = write(temporary);
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, fmt::format("cannot write {}: not enough memory", path)};
+  } catch (const std::exception& e) {
+    status = cannot("write", path, e.what());
+  }
+  std::string message = status.message();
+  for (auto at = message.find(temporary); temporary != path && at != std::string::npos;
+       at = message.find(temporary)) {
+    message.replace(at, temporary.size(), path);
+  }
+  return {status.code(), std::move(message)};
+}
+
 }  // namespace
 
 Status write_atomically(const std::string& path,
                         const std::function<Status(const std::string& temporary)>& write) {
+  namespace fs = std::filesystem;
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return cannot("write", path, "it is a folder");
-  std::string temporary = path + ".XXXXXX";
+  if (fs::is_directory(path, error)) return cannot("write", path, "it is a folder");
+  const IgnoreFileSizeSignal guard;
+  // Pipes and devices have no content to lose and must stay what they are.
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    return attempt(path, path, write);
+  // A link stays a link.
+  const bool link = fs::is_symlink(path, error) && fs::exists(path, error);
+  const std::string target = link ? fs::canonical(path, error).string() : path;
+  std::string temporary = target + ".XXXXXX";
   const int file = mkstemp(temporary.data());
   if (file < 0) return cannot("write", path, std::strerror(errno));
-  fchmod(file, wanted_mode(path));
-
-  const IgnoreFileSizeSignal guard;
-  Status status;
-  try {
-    status = write(temporary);
-  } catch (const std::exception& e) {
-    status = cannot("write", path, e.what());
+  Status status = attempt(path, temporary, write);
+  if (status.ok() && fchmod(file, wanted_mode(target)) != 0 && errno != EPERM) {
+    status = cannot("write", path, std::strerror(errno));
   }
   if (status.ok() && fsync(file) != 0 && errno != EINVAL) {
     status = cannot("write", path, std::strerror(errno));
   }
-  close(file);
-  if (status.ok() && std::rename(temporary.c_str(), path.c_str()) != 0) {
+  if (close(file) != 0 && status.ok()) status = cannot("write", path, std::strerror(errno));
+  if (status.ok() && std::rename(temporary.c_str(), target.c_str()) != 0) {
     status = cannot("write", path, std::strerror(errno));
   }
   if (!status.ok()) unlink(temporary.c_str());

@@ -11,7 +11,8 @@ namespace obscura::support {
 
 // Writes a file so that it is whole or not there: `write` fills the temporary file that it is
 // given, in the same folder, which then takes the name. On failure, a full disk included, the
-// temporary file is removed and an older file of that name stays as it was.
+// temporary file is removed and an older file of that name stays as it was. A link is followed;
+// pipes and devices are written in place.
 Status write_atomically(const std::string& path,
                         const std::function<Status(const std::string& temporary)>& write);
 

@@ -49,6 +49,9 @@ struct DepthFileOptions {
   DepthKind depth_kind = DepthKind::kLinear;
   std::optional<double> near{}, far{};
   std::optional<GuardBandSpec> guard_band{};
+  // As many depth layers as an occluder asks for are read where the EXR file has them: layerK.Z and
+  // layerK.ZBack with K from 1. Not a user's setting.
+  int layers = 0;
 };
 template <FieldsOf<DepthFileOptions> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {

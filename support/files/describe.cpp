@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fmt/format.h"
 #include "support/files/depth_file.h"
+#include "support/files/exr_camera.h"
 #include "support/files/files.h"
 
 namespace obscura::support {
@@ -41,6 +43,25 @@ Json describe_window(const PixelWindow& w) {
   return Json::array({w.min_x, w.min_y, w.max_x, w.max_y});
 }
 
+std::string describe_camera(const std::string& path, const ExrHeader& header) {
+  if (!header.world_to_camera || !header.world_to_ndc) {
+    return "not in the file; give fov-y, ortho-height, focal-length with sensor-height, or "
+           "projection";
+  }
+  ExrCamera known;
+  const PixelWindow& display = header.display_window;
+  if (Status s = camera_from_exr(path, header, display, &known); !s.ok()) return s.message();
+  const Camera& c = known.camera;
+  if (c.orthographic) {
+    return fmt::format("orthographic, height {:.6g}, from worldToCamera and worldToNDC",
+                       c.scale_y * static_cast<float>(display.height()));
+  }
+  const double above = std::atan(double{c.center_v} * c.scale_y);
+  const double below = std::atan((display.height() - double{c.center_v}) * c.scale_y);
+  return fmt::format("perspective, fov-y {:.4f} degrees, from worldToCamera and worldToNDC",
+                     (above + below) * 180 / std::numbers::pi);
+}
+
 void describe_exr(const std::string& path, const ExrHeader& header, Json* json) {
   (*json)["display_window"] = describe_window(header.display_window);
   (*json)["data_window"] = describe_window(header.data_window);
@@ -53,10 +74,17 @@ void describe_exr(const std::string& path, const ExrHeader& header, Json* json) 
       choice.normals[0].empty()
           ? std::string("none; reconstructed from depth")
           : fmt::format("{} {} {}", choice.normals[0], choice.normals[1], choice.normals[2]);
-  (*json)["camera"] = header.world_to_camera && header.world_to_ndc
-                          ? "from worldToCamera and worldToNDC"
-                          : "not in the file; give fov-y, ortho-height, focal-length with "
-                            "sensor-height, or projection";
+  (*json)["camera"] = describe_camera(path, header);
+}
+
+// A value for people. Names in a file may hold any bytes; none shall steer a terminal.
+std::string as_text(const Json& value) {
+  std::string text = value.is_string() ? value.get<std::string>()
+                                       : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  }
+  return text;
 }
 
 }  // namespace
@@ -78,6 +106,10 @@ Status describe_image(const std::string& path, Json* description) {
     const char* type = file_ending(path) == ".png" ? "8 or 16 bits, as [0, 1]" : "float";
     json["channels"].push_back(describe_channel(c, native ? native->type : type));
   }
+  for (const ExrHeader::Channel& c : header.channels) {
+    if (c.subsampled)
+      json["channels"].push_back({{"name", c.name}, {"type", c.type + ", subsampled"}});
+  }
   *description = std::move(json);
   return {};
 }
@@ -90,13 +122,13 @@ std::string description_text(const Json& description) {
       for (const auto& entry : value) {
         out += "  ";
         for (const auto& [name, field] : entry.items()) {
-          const std::string text = field.is_string() ? field.get<std::string>() : field.dump();
+          const std::string text = as_text(field);
           out += name == "name" ? text : fmt::format("  {} {}", name, text);
         }
         out += "\n";
       }
     } else {
-      const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+      const std::string text = as_text(value);
       out += fmt::format("{}: {}\n", key, text);
     }
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "obscura/camera.h"
 #include "obscura/status.h"
 #include "support/image.h"
 
@@ -27,6 +28,7 @@ struct ExrHeader {
   struct Channel {
     std::string name;
     std::string type;  // half, float or uint
+    bool subsampled = false;
   };
   // 16 numbers, row by row as stored: OpenEXR's matrices act on row vectors, p' = p M.
   using Matrix = std::array<double, 16>;
@@ -35,9 +37,11 @@ struct ExrHeader {
   std::vector<Channel> channels;
   std::optional<Matrix> world_to_camera, world_to_ndc;
   std::vector<std::string> attributes;  // names of all others
-  std::shared_ptr<const void> native;   // for write_exr to pass on
+  std::shared_ptr<const void> native;   // OpenEXR's own, for write_exr to pass on
 
   const Channel* find(const std::string& name) const;
+  // The smallest window around data and display window: what a DepthInput covers.
+  PixelWindow whole_window() const;
 };
 
 Status read_exr_header(const std::string& path, ExrHeader* header);
@@ -48,14 +52,21 @@ Status read_exr(const std::string& path, const std::vector<std::string>& wanted,
 
 struct ExrWriteOptions {
   bool half = false;  // 16-bit floats
-  // Another file's attributes to pass on (not those that describe how its pixels are stored).
-  const ExrHeader* attributes_of = nullptr;
+  // An EXR file whose other channels, in their own types, and attributes go along. The image then
+  // lies on that file's display window, or on its whole window less a guard band where that is
+  // given; windows given below are not used.
+  std::string keep_channels_of{};
+  std::optional<GuardBand> kept_guard_band{};
   // Where the image lies; by default its own size is display and data window.
   std::optional<PixelWindow> display_window, data_window;
   std::optional<ExrHeader::Matrix> world_to_camera, world_to_ndc;
-  // Channels that keep a type of their own.
+  // Channels with a type of their own, half or float.
   std::vector<ExrHeader::Channel> types;
 };
+
+// By name, in any case: Z, depth.Z, Depth.V, ViewLayer.Depth.Z, VRayZDepth.R; the same with "back".
+bool looks_like_depth(const std::string& channel);
+bool looks_like_back_depth(const std::string& channel);
 
 // Writes an image with named channels, ZIP-compressed. Not atomic by itself: see write_image.
 Status write_exr(const std::string& path, const Image& image, const ExrWriteOptions& options);

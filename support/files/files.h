@@ -1,8 +1,10 @@
 #ifndef OBSCURA_SUPPORT_FILES_FILES_H_
 #define OBSCURA_SUPPORT_FILES_FILES_H_
 
+#include <optional>
 #include <string>
 
+#include "obscura/camera.h"
 #include "support/files/atomic_file.h"
 #include "support/image.h"
 
@@ -17,12 +19,15 @@ Status read_image(const std::string& path, Image* image);
 
 struct WriteOptions {
   bool half = false;  // EXR: 16-bit floats
-  // EXR: the path of an EXR file whose other channels and attributes are copied along. Its display
-  // window has the image's size.
+  int png_bits = 8;   // PNG: 8 or 16 per channel
+  // EXR: the path of an EXR file whose other channels and attributes are copied along. The image
+  // has the size of its display window, or is what is visible of it with this guard band, that of
+  // the DepthInput loaded from it.
   std::string keep_channels_of{};
+  std::optional<GuardBand> kept_guard_band{};
 };
 
-// Writes an image by its ending: .exr, .pfm (1 or 3 channels), .png (the same, 8 bits). The file
+// Writes an image by its ending: .exr, .pfm (1 or 3 channels), .png (the same). The file
 // is whole or not there, and an older one is not lost by a failure.
 Status write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
 

@@ -10,16 +10,14 @@
 namespace obscura::support {
 
 // 8 or 16 bits per channel, as values in [0, 1]: channel Y, or R, G, B (alpha is left out).
-// `sixteen_bits` says which, when it is asked for. `name` stands in messages.
+// `sixteen_bits` says which, when it is asked for. `name` stands in messages. Check sums are
+// verified: a damaged file is refused.
 Status decode_png(std::string_view bytes, const std::string& name, Image* image,
                   bool* sixteen_bits = nullptr);
 
-// Radiance RGBE (.hdr): linear R, G, B.
-Status decode_hdr(std::string_view bytes, const std::string& name, Image* image);
-
-// One or three channels to 8 bits: [0, 1] to 0..255, rounded; what lies outside is clamped and NaN
-// becomes 0.
-Status encode_png(const Image& image, std::string* bytes);
+// One or three channels to `bits` (8 or 16) per channel: [0, 1] to 0..255 or 0..65535, rounded;
+// what lies outside is clamped and NaN becomes 0.
+Status encode_png(const Image& image, int bits, std::string* bytes);
 
 }  // namespace obscura::support
 

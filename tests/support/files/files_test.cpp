@@ -1,45 +1,21 @@
 #include "support/files/files.h"
 
-#include <gtest/gtest.h>
 #include <png.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "support/files/depth_file.h"
 #include "support/files/exr.h"
 #include "support/files/gbuffer_file.h"
+#include "support/files/hdr.h"
 #include "support/files/pfm.h"
 #include "support/files/png.h"
+#include "tests/support/files/files_fixture.h"
 
 namespace obscura::support {
 namespace {
-
-class FilesTest : public testing::Test {
- protected:
-  FilesTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "obscura-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~FilesTest() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-  }
-  std::string folder_;
-};
-
-Image ramp(int width, int height, std::initializer_list<const char*> names) {
-  Image image(width, height);
-  float v = 0;
-  for (const char* name : names) {
-    for (float& x : image.add(name)) x = v += 0.125f;
-  }
-  return image;
-}
 
 TEST_F(FilesTest, PfmRowsRunFromTheBottomInEitherByteOrder) {
   const float values[] = {1, 2, 3, 4};

@@ -23,6 +23,7 @@ decltype(auto) visit_settings(Settings& settings, F&& f) {
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
+      {"area", "Volumetric obscurance by area samples (Loos and Sloan 2010)", AreaSettings{}},
       {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
        FarFieldSettings{}},
       {"hemisphere", "Directions marched in depth: bent normals and cones (Klehm et al. 2011)",

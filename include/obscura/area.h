@@ -13,13 +13,13 @@ namespace obscura {
 // of the depths over each sample's share of the disk, from a pyramid of moments, stand for the
 // depths themselves, as a box of half-width one deviation around the mean.
 struct AreaSettings {
-  Falloff falloff{.kind = FalloffKind::kConstant};  // constant; radius: the sphere's
+  Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the sphere's
   DualRadius dual{};
   Occluder occluder{};     // solid or thickness
   int samples = 1;         // [1, 16] per pixel
   bool center = false;     // one of the samples lies at the receiver
   bool rotate = true;      // random reflection of the pattern per pixel
-  bool blur = false;       // edge-aware separable blur of the result
+  bool blur = true;        // edge-aware separable blur of the result
   std::uint32_t seed = 1;  // of the random reflections
 };
 template <FieldsOf<AreaSettings> Self, class Visitor>

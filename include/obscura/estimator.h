@@ -4,6 +4,7 @@
 #include <memory>
 #include <variant>
 
+#include "obscura/area.h"
 #include "obscura/depth_field.h"
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
@@ -16,8 +17,8 @@
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings = std::variant<FarFieldSettings, HemisphereSettings, LineSettings,
-                                    PointSettings, ReferenceSettings>;
+using MethodSettings = std::variant<AreaSettings, FarFieldSettings, HemisphereSettings,
+                                    LineSettings, PointSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

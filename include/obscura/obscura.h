@@ -3,6 +3,7 @@
 
 // Everything in one include.
 
+#include "obscura/area.h"
 #include "obscura/camera.h"
 #include "obscura/cone.h"
 #include "obscura/depth_field.h"

@@ -42,6 +42,48 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> GatherLanes(D d, const float* HWY_RESTRICT
 #endif
 }
 
+// The pairs base[2 index[lane]], base[2 index[lane] + 1], each pair by one load.
+template <class D, class V>
+HWY_INLINE void GatherPairs(D d, const float* HWY_RESTRICT base,
+                            const std::int32_t* HWY_RESTRICT index, V* first, V* second) {
+  namespace hn = hwy::HWY_NAMESPACE;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  auto pairs = [base](const std::int32_t* k) HWY_ATTR {
+    auto at = [base](std::int32_t i) HWY_ATTR {
+      return reinterpret_cast<const double*>(base + 2 * static_cast<std::ptrdiff_t>(i));
+    };
+    const __m128d lo = _mm_loadh_pd(_mm_load_sd(at(k[0])), at(k[1]));
+    const __m128d hi = _mm_loadh_pd(_mm_load_sd(at(k[2])), at(k[3]));
+    return _mm256_castpd_ps(_mm256_set_m128d(hi, lo));
+  };
+#if HWY_TARGET == HWY_AVX2
+  // Lanes 0 1 4 5 and 2 3 6 7, so that the shuffles within halves give them in order.
+  const __m256 p = pairs(index), q = pairs(index + 4);
+  const __m256 a = _mm256_permute2f128_ps(p, q, 0x20), b = _mm256_permute2f128_ps(p, q, 0x31);
+  *first = V{_mm256_shuffle_ps(a, b, 0x88)};
+  *second = V{_mm256_shuffle_ps(a, b, 0xDD)};
+#else
+  const __m512 p = _mm512_insertf32x8(_mm512_castps256_ps512(pairs(index)), pairs(index + 4), 1);
+  const __m512 q =
+      _mm512_insertf32x8(_mm512_castps256_ps512(pairs(index + 8)), pairs(index + 12), 1);
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+  *first = V{_mm512_permutex2var_ps(p, even, q)};
+  *second = V{_mm512_permutex2var_ps(p, odd, q)};
+#endif
+  (void)d;
+#else
+  HWY_ALIGN float lanes[2][HWY_MAX_BYTES / sizeof(float)];
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    const float* pair = base + 2 * static_cast<std::ptrdiff_t>(index[i]);
+    lanes[0][i] = pair[0];
+    lanes[1][i] = pair[1];
+  }
+  *first = hn::Load(d, lanes[0]);
+  *second = hn::Load(d, lanes[1]);
+#endif
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
 HWY_AFTER_NAMESPACE();

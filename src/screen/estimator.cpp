@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/text.h"
+#include "screen/area/area.h"
 #include "screen/blurred.h"
 #include "screen/dual.h"
 #include "screen/far_field/far_field.h"
@@ -34,6 +35,12 @@ Status make_volumetric(const Settings& s, Make make, int w, int h, std::unique_p
 
 Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
   return make_volumetric(s, make_line, w, h, m);
+}
+Status make_method(const AreaSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  auto make = [w, h](const AreaSettings& settings, std::unique_ptr<Method>* method) {
+    return make_area(settings, w, h, method);
+  };
+  return make_volumetric(s, make, w, h, m);
 }
 Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>* m) {
   return make_volumetric(s, make_point, w, h, m);

@@ -38,6 +38,14 @@ PointSettings point(int samples, bool rotate, FalloffKind kind) {
   return s;
 }
 
+AreaSettings area(int samples, bool rotate, FalloffKind kind) {
+  AreaSettings s;
+  s.falloff = {.kind = kind, .radius = 0.5f};
+  s.samples = samples;
+  s.rotate = rotate;
+  return s;
+}
+
 std::vector<Named> methods() {
   LineSettings tangent = line(true, false, FalloffKind::kConstant);
   tangent.sphere = SphereKind::kTangent;
@@ -57,6 +65,9 @@ std::vector<Named> methods() {
       {"point, fixed", point(33, false, FalloffKind::kConstant), 1e-6, 0.1},
       {"point, quadratic", point(7, true, FalloffKind::kQuadratic), 1e-6, 0.3},
       {"point, screen", screen, 1e-6, 1},
+      {"area", area(1, true, FalloffKind::kConstant), 0.005, 1e-3},
+      {"area, 9 fixed", area(9, false, FalloffKind::kConstant), 0.005, 1e-3},
+      {"area, quadratic", area(4, true, FalloffKind::kQuadratic), 0.005, 2e-3},
   };
 }
 
@@ -279,6 +290,9 @@ TEST(Volumetric, MistakesAreNamed) {
   PointSettings p;
   p.samples = 65;
   EXPECT_EQ(message(p), "samples is 65; it must be in [1, 64]");
+  AreaSettings a;
+  a.samples = 17;
+  EXPECT_EQ(message(a), "samples is 17; it must be in [1, 16]");
   p.samples = 33;
   p.pattern = PointPattern::kScreen;
   EXPECT_EQ(message(p), "samples is 33; the screen pattern has sizes in [1, 32]");

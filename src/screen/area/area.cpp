@@ -1,0 +1,95 @@
+#include "screen/area/area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/reflection_noise.h"
+#include "core/text.h"
+#include "core/volumetric.h"
+#include "math/sphere_line.h"
+#include "obscura/patterns.h"
+#include "screen/area/area_kernel.h"
+#include "screen/rows.h"
+
+namespace obscura {
+namespace {
+
+class AreaMethod final : public Method {
+ public:
+  AreaMethod(const AreaSettings& settings, int width, int height) {
+    frame_.view.radius = view::tap_radius(settings.falloff.radius);
+    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+    if (settings.occluder.kind == OccluderKind::kThickness) {
+      frame_.thickness = settings.occluder.thickness;
+    }
+    set_pattern(disk_pattern(settings.samples, settings.center));
+    if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
+    pyramid_.resize(width, height);
+  }
+
+  view::Needs needs() const override { return {.normals = true}; }
+
+  Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
+    if (outputs.visibility.empty()) return {};
+    pyramid_.build(g, context.executor);
+    AreaFrame f = frame_;
+    f.view = view::make_tap_frame(g, frame_.view.radius);
+    f.view.noise_x = noise_.x();
+    f.view.noise_y = noise_.y();
+    f.texels = pyramid_.texels();
+    f.levels = pyramid_.levels();
+    f.stride = pyramid_.stride();
+    f.area = pyramid_.area();
+    return run_rows(g, outputs.visibility, context, [&](int row, int begin, int end, float* out) {
+      area_row(f, row, begin, end, out);
+    });
+  }
+
+ private:
+  void set_pattern(std::span<const DiskSample> pattern) {
+    AreaFrame& f = frame_;
+    f.samples = static_cast<int>(pattern.size());
+    double sum = 0;
+    auto weight = [&](const DiskSample& s) {
+      return f.quadratic ? s.weight_quadratic : s.weight_constant;
+    };
+    for (const DiskSample& s : pattern) sum += weight(s);
+    for (int i = 0; i < f.samples; ++i) {
+      const DiskSample& s = pattern[i];
+      const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
+      const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
+      const double half = f.quadratic ? math::quadratic_line(extent, lateral) : extent;
+      f.x[i] = s.x;
+      f.y[i] = s.y;
+      f.lateral[i] = std::max(static_cast<float>(lateral), 1e-6f);
+      f.extent[i] = static_cast<float>(extent);
+      f.half[i] = static_cast<float>(half);
+      f.weight[i] = static_cast<float>(weight(s) / sum / (2 * half));
+      // The cell's volume over its sample's extent is about its area A; a disk of that area has a
+      // deviation of sqrt(A / 4 pi), level l's kernel one of about 2^l / sqrt(3) pixels.
+      const double area = s.weight_constant / (2 * extent);
+      f.level[i] = static_cast<float>(std::log2(std::sqrt(3 * area / (4 * std::numbers::pi))));
+    }
+  }
+
+  AreaFrame frame_;
+  ReflectionNoise noise_;
+  MomentPyramid pyramid_;
+};
+
+}  // namespace
+
+Status make_area(const AreaSettings& settings, int width, int height,
+                 std::unique_ptr<Method>* method) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (!MomentPyramid::fits(width, height)) {
+    return unsupported(text("image size is ", width, "x", height,
+                            "; area sampling takes images of up to 2^28 pixels"));
+  }
+  *method = std::make_unique<AreaMethod>(settings, width, height);
+  return {};
+}
+
+}  // namespace obscura

@@ -31,7 +31,7 @@ class MarchedRays {
       const double unit = c.orthographic ? 1 : depth;
       const double u = c.center_u + q[0] / (c.scale_x * unit);
       const double v = c.center_v - q[1] / (c.scale_y * unit);
-      if (u < 0 || v < 0 || u > g_.width || v > g_.height || depth > 1e9) return kNever;
+      if (u < 0 || v < 0 || u > g_.width || v > g_.height || depth > 1e9 || t > 1e6) return kNever;
       if (occluder_.kind == OccluderKind::kSolid &&
           (u < 0.5 || v < 0.5 || u > g_.width - 0.5 || v > g_.height - 0.5)) {
         return kNever;
@@ -41,7 +41,8 @@ class MarchedRays {
       const double z = c.orthographic ? 0 : w[2];
       const double du = (w[0] + (u - c.center_u) * c.scale_x * z) / (c.scale_x * unit);
       const double dv = (w[1] + (c.center_v - v) * c.scale_y * z) / (c.scale_y * unit);
-      t += std::min(kStep / std::max(1e-30, std::sqrt(du * du + dv * dv)), 0.01 * depth);
+      t += std::min(kStep / std::max(1e-30, std::sqrt(du * du + dv * dv)),
+                    0.01 * (c.orthographic ? 1 : depth));
     }
   }
 

@@ -34,6 +34,8 @@ void make_frame(Receiver* r) {
   r->bitangent[2] = -n[1];
 }
 
+}  // namespace
+
 Receiver make_receiver(const PixelTracer::Frame& f, Pixel pixel) {
   const view::Geometry& g = *f.geometry;
   const Camera& c = g.camera;
@@ -82,8 +84,6 @@ Receiver make_receiver(const PixelTracer::Frame& f, Pixel pixel) {
   }
   return r;
 }
-
-}  // namespace
 
 void PixelTracer::flush(const Frame& f) {
   if (batch_.count == 0) return;

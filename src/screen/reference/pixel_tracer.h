@@ -66,6 +66,9 @@ class PixelTracer {
   Slabs slabs_[kMaxPixels][2];
 };
 
+// Where the rays of a pixel with finite depth start.
+Receiver make_receiver(const PixelTracer::Frame& frame, Pixel pixel);
+
 }  // namespace obscura
 
 #endif  // OBSCURA_SRC_SCREEN_REFERENCE_PIXEL_TRACER_H_

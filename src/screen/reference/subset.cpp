@@ -64,8 +64,9 @@ Subset::Blend Subset::neighbours(int x, int y) const {
     const float near = (1 - std::abs(static_cast<float>(x - i)) / step) *
                        (1 - std::abs(static_cast<float>(y - j)) / step);
     const float other = g_.depth(i + g_.guard_band.left, j + g_.guard_band.top);
-    // 1 % of the depth apart weighs as much as half a cell apart.
-    const float weight = near / (0.01f + std::abs(z - other) / (z + other));
+    // Surfaces more than half a per cent of the depth apart are hardly mixed.
+    const float apart = (z - other) / (z + other);
+    const float weight = near / (1e-5f + apart * apart);
     if (!(weight > 0)) continue;
     blend.pixel[blend.count] = {i, j};
     blend.weight[blend.count++] = weight;

@@ -29,7 +29,7 @@ struct ViewOptions {
   std::optional<double> fov_y{}, ortho_height{};
   int layers = 0;
   bool back_depth = false;
-  double sheet_thickness = 0;  // 0: 0.5 % of the scene size
+  double sheet_thickness = 0;  // 0: the scene's own, or 0.5 % of the scene size
 
   LayerSpec layer_spec() const { return {layers, back_depth, sheet_thickness}; }
 };
@@ -83,8 +83,8 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.layers, Field{"layers", "", closed(0, 64), "Depth layers to render, nearest first."});
   v(s.back_depth, Field{"back_depth", "", {}, "Render where the first layer's matter ends."});
   v(s.sheet_thickness, Field{"sheet_thickness", "world units", at_least(0),
-                             "Extent of open sheets along the view ray; 0 is 0.5 % of the scene "
-                             "size."});
+                             "Extent of open sheets along the view ray; 0 is the scene's "
+                             "own or 0.5 % of its size."});
 }
 
 }  // namespace support

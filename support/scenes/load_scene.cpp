@@ -92,11 +92,13 @@ Status load_scene(const std::string& spec, const ViewOptions& given, Executor& e
   Scene scene;
   if (Status s = kind->build(parameters, seed.seed, &scene); !s.ok()) return named(s);
   if (Status s = apply_options(options, &scene.view); !s.ok()) return named(s);
+  LayerSpec layers = options.layer_spec();
+  if (layers.sheet_thickness == 0) layers.sheet_thickness = scene.sheet_thickness;
   std::unique_ptr<RayScene> rays;
   if (Status s = RayScene::create(std::move(scene.mesh), &rays); !s.ok()) return named(s);
   DepthInput gbuffer;
   gbuffer.name = spec;
-  Status s = render_gbuffer(*rays, scene.view, options.layer_spec(), executor, &gbuffer);
+  Status s = render_gbuffer(*rays, scene.view, layers, executor, &gbuffer);
   if (!s.ok()) return named(s);
   *rendering = {std::move(rays), scene.view, std::move(gbuffer)};
   return {};

@@ -164,6 +164,7 @@ void build(const MeadowSettings& s, std::uint64_t seed, Scene* scene) {
   Meadow meadow(s, seed, &scene->mesh);
   meadow.build();
   scene->mesh.scene_size = bounds_of(scene->mesh).longest_side();
+  scene->sheet_thickness = 0.01;  // half a per cent of the size would be a blade's length
   const double ground = meadow.height(0, kEyeZ);
   scene->view.eye = {0, ground + 1.25, kEyeZ};
   scene->view.look_at = {0, ground + 1.25, 0};

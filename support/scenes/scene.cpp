@@ -1,6 +1,9 @@
 #include "support/scenes/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numbers>
 
 namespace obscura::support {
 
@@ -19,6 +22,28 @@ const std::vector<SceneKind>& scene_catalogue() {
     return all;
   }();
   return catalogue;
+}
+
+std::string scene_tables() {
+  std::string scenes =
+      "| scene | what | S | triangles | eye | looks at | view |\n|---|---|---|---|---|---|---|\n";
+  std::string keys = "| scene | key | value | default | meaning |\n|---|---|---|---|---|\n";
+  for (const SceneKind& kind : scene_catalogue()) {
+    Scene scene;
+    if (!kind.build({}, 1, &scene).ok()) continue;
+    const ViewSpec& v = scene.view;
+    auto place = [](Vec3 p) { return fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z); };
+    scenes += fmt::format(
+        "| `{}` | {} | {:.4g} | {} | {} | {} | {} |\n", kind.name, kind.summary,
+        scene.mesh.scene_size, scene.mesh.triangles.size(), place(v.eye), place(v.look_at),
+        v.orthographic ? fmt::format("orthographic, {:g} high", v.ortho_height)
+                       : fmt::format("{:.0f} degrees", v.fov_y * 180 / std::numbers::pi));
+    for (const SceneKind::Parameter& p : kind.parameters) {
+      keys += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", kind.name, p.key, p.value_form,
+                          p.default_value, p.help);
+    }
+  }
+  return scenes + "\n" + keys;
 }
 
 }  // namespace obscura::support

@@ -16,6 +16,7 @@ namespace obscura::support {
 struct Scene {
   Mesh mesh;
   ViewSpec view;
+  double sheet_thickness = 0;  // of LayerSpec, unless the user says otherwise
 };
 
 // Text by key, as after the '?' of `scene:NAME?key=value&...`.
@@ -35,6 +36,9 @@ struct SceneKind {
 };
 
 const std::vector<SceneKind>& scene_catalogue();
+
+// The tables of docs/scenes.md: a test keeps that page and the catalogue in step.
+std::string scene_tables();
 
 // The key under which a field stands in text: '-' for '_'.
 std::string field_key(const Field& field);

@@ -9,6 +9,7 @@ namespace obscura::support {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr Range kLengths{1e-6, 1e6};  // what floats still tell apart from the camera
 // Faces that stand for infinite ones reach this many times the camera's distance.
 constexpr double kFar = 40;
 
@@ -21,7 +22,7 @@ template <FieldsOf<PlaneSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.tilt_x, Field{"tilt_x", "degrees", closed(-89, 89), "Turn about the image's x axis."});
   v(s.tilt_y, Field{"tilt_y", "degrees", closed(-89, 89), "Then about its y axis."});
-  v(s.side, Field{"side", "world units", positive(), "Length of a side of the square."});
+  v(s.side, Field{"side", "world units", kLengths, "Length of a side of the square."});
 }
 
 void build_plane(const PlaneSettings& s, std::uint64_t, Scene* scene) {
@@ -41,7 +42,7 @@ struct GrooveSettings {
 template <FieldsOf<GrooveSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.angle, Field{"angle", "degrees", closed(10, 170), "Opening angle between the walls."});
-  v(s.reach, Field{"reach", "world units", positive(),
+  v(s.reach, Field{"reach", "world units", kLengths,
                    "Length of the walls, and half that of the groove; the camera is 4 away."});
 }
 
@@ -64,7 +65,7 @@ struct CornerSettings {
 template <FieldsOf<CornerSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.reach,
-    Field{"reach", "world units", positive(), "Length of the walls' sides; the camera is 4 away."});
+    Field{"reach", "world units", kLengths, "Length of the walls' sides; the camera is 4 away."});
 }
 
 void build_corner(const CornerSettings& s, std::uint64_t, Scene* scene) {
@@ -83,7 +84,7 @@ struct BumpSettings {
 };
 template <FieldsOf<BumpSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.radius, Field{"radius", "world units", positive(), "Radius of the half sphere."});
+  v(s.radius, Field{"radius", "world units", kLengths, "Radius of the half sphere."});
 }
 
 void build_bump(const BumpSettings& s, std::uint64_t, Scene* scene) {
@@ -103,8 +104,8 @@ struct SphereOverPlaneSettings {
 };
 template <FieldsOf<SphereOverPlaneSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.radius, Field{"radius", "world units", positive(), "Radius of the sphere."});
-  v(s.height, Field{"height", "world units", positive(), "Height of its centre over the plane."});
+  v(s.radius, Field{"radius", "world units", kLengths, "Radius of the sphere."});
+  v(s.height, Field{"height", "world units", kLengths, "Height of its centre over the plane."});
 }
 
 void build_sphere_over_plane(const SphereOverPlaneSettings& s, std::uint64_t, Scene* scene) {
@@ -113,8 +114,8 @@ void build_sphere_over_plane(const SphereOverPlaneSettings& s, std::uint64_t, Sc
   shapes.box({-reach, -4 * r, -reach}, {reach, 0, reach});
   shapes.sphere({0, s.height, 0}, r);
   scene->mesh.scene_size = 2 * r;
-  scene->view.look_at = {0, 0.5 * s.height, 0};
-  scene->view.eye = {0, 0.5 * s.height + 2.2 * r, 4.2 * r};
+  scene->view.look_at = {0, 0.6 * s.height, 0};
+  scene->view.eye = {0, 0.6 * s.height + 2.2 * r, 4.6 * r};
   scene->view.fov_y = 50 * kDegree;
 }
 

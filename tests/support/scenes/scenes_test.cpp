@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "support/rays/solids.h"
 #include "support/scenes/load_scene.h"
@@ -113,6 +115,14 @@ TEST(Scenes, MistakesAreNamed) {
     EXPECT_EQ(status.message().find('\n'), std::string::npos) << spec;
     EXPECT_EQ(input.name, "untouched");
   }
+}
+
+TEST(Scenes, PageHoldsTheTables) {
+  std::ifstream file(OBSCURA_SOURCE_DIR "/docs/scenes.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  EXPECT_NE(page.str().find(scene_tables()), std::string::npos) << "docs/scenes.md should hold:\n\n"
+                                                                << scene_tables();
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ enum class Transport {
   kPaper,     // equation 6 on the full grid
   kFast,      // half resolution, three directions per octant
   kBalanced,  // half resolution, six directions per octant
-  kAccurate,  // full resolution
+  kAccurate,  // half resolution, ten directions per octant
 };
 template <>
 struct EnumNames<Transport> {
@@ -195,10 +195,10 @@ class VisibilityField {
   // The same averaged over all octants: one scalar field without the geometry term.
   Status scalar(GridView<float> visibility) const;
 
-  // Ambient visibility in [0, 1] at points of the surface: the sum of V_s G_s over the chosen octants
-  // (equation 4), divided by that of all eight with V = 1, so that an open point is 1 with all.
-  // For a field swept with alpha < 1 light comes through the surface too: |N.w| takes the place of
-  // max(N.w, 0), and the whole sphere's 2 pi that of pi.
+  // Ambient visibility in [0, 1] at points of the surface: the sum of V_s G_s over the chosen
+  // octants (equation 4), divided by that of all eight with V = 1, so that an open point is 1 with
+  // all. For a field swept with alpha < 1 light comes through the surface too: |N.w| takes the
+  // place of max(N.w, 0), and the whole sphere's 2 pi that of pi.
   Status light(std::span<const SurfacePoint> points, const LightSettings& settings,
                std::span<float> visibility, const VolumeRun& run = {}) const;
 
@@ -210,7 +210,9 @@ class VisibilityField {
 };
 
 // Sweeps visibility through the transmittances of a distance field (equations 6 to 8). Needs
-// distances only within two voxels of the surface; positive is open.
+// distances only within two voxels of the surface; positive is open. Sweeping into a field of the
+// same size again reuses its memory (the field is then empty if memory runs out or the run is
+// cancelled).
 Status sweep_occlusion(GridView<const float> distance, const OcclusionSettings& settings,
                        VisibilityField* field, const VolumeRun& run = {});
 

@@ -30,6 +30,12 @@ class VisibilityFieldImpl {
     return static_cast<std::size_t>(size[0]) * size[1] * static_cast<std::size_t>(size[2]);
   }
   std::size_t channels() const { return 4 * scheme.directions.size(); }
+  // Another field's memory, where it fits: a volume swept again allocates nothing large.
+  void take_bytes(VisibilityFieldImpl* other) {
+    if (other->voxels() * other->channels() != voxels() * channels()) return;
+    for (int half = 0; half < 2; ++half) bytes[half] = std::move(other->bytes[half]);
+    *other = {};
+  }
   bool has_half(int half) const { return bytes[half] || floats[half]; }
 
   // Adds share times the values of half a voxel's channels, in [0, 1], to sum.
@@ -90,7 +96,9 @@ void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, in
   const SweepDirection* directions = field->scheme.directions.data();
   if (settings.precision == VisibilityPrecision::kU8) {
     for (int half = 0; half < 2; ++half) {
-      if (halves >> half & 1) field->bytes[half].reset(new std::uint8_t[samples]);
+      if ((halves >> half & 1) && !field->bytes[half]) {
+        field->bytes[half].reset(new std::uint8_t[samples]);
+      }
     }
     executor.parallel_for(2, [&](int half, int) {
       if (!(halves >> half & 1) || progress.cancelled()) return;
@@ -169,6 +177,7 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
                         ? 2
                         : static_cast<std::int64_t>(2 * f.channels()),
                     run.progress);
+  if (settings.precision == VisibilityPrecision::kU8) f.take_bytes(&field->impl());
   sweep_halves(tau.data(), settings, 3, executor, progress, &f);
   if (progress.cancelled()) return cancelled();
   *field = std::move(result);

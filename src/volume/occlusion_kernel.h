@@ -24,7 +24,7 @@ struct SweepDirection {
   float second = 0;  // ray on the face along the other two axes, in rising order, in [0, 1]
 };
 
-inline constexpr int kMaxDirections = 6;
+inline constexpr int kMaxDirections = 10;
 
 // Sweeps the four octants with light from one side of z through a grid of transmittances.
 struct OcclusionSweep {

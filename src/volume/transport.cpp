@@ -6,6 +6,10 @@
 namespace obscura {
 namespace {
 
+// Voxels of the half-resolution grid from a point to its look-up: higher, narrow channels are
+// missed; lower, the surface's own voxels count too much.
+constexpr float kLookup = 0.6f;
+
 // Quadrature of an octant (Lathrop and Carlson's level-symmetric sets), one of each kind.
 struct Kind {
   float x, y, z, weight;
@@ -20,6 +24,17 @@ constexpr Kind kS6[] = {{0.9261808f, 0.2666355f, 0.2666355f, 0.1761263f},
                         {0.2666355f, 0.6815076f, 0.6815076f, 0.1572071f},
                         {0.6815076f, 0.2666355f, 0.6815076f, 0.1572071f},
                         {0.6815076f, 0.6815076f, 0.2666355f, 0.1572071f}};
+
+constexpr Kind kS8[] = {{0.9511897f, 0.2182179f, 0.2182179f, 0.1209877f},
+                        {0.2182179f, 0.9511897f, 0.2182179f, 0.1209877f},
+                        {0.2182179f, 0.2182179f, 0.9511897f, 0.1209877f},
+                        {0.2182179f, 0.5773503f, 0.7867958f, 0.0907407f},
+                        {0.2182179f, 0.7867958f, 0.5773503f, 0.0907407f},
+                        {0.5773503f, 0.2182179f, 0.7867958f, 0.0907407f},
+                        {0.5773503f, 0.7867958f, 0.2182179f, 0.0907407f},
+                        {0.7867958f, 0.2182179f, 0.5773503f, 0.0907407f},
+                        {0.7867958f, 0.5773503f, 0.2182179f, 0.0907407f},
+                        {0.5773503f, 0.5773503f, 0.5773503f, 0.0925926f}};
 
 SweepDirection make_direction(const Kind& kind, Stencil stencil,
                               const std::array<float, 3>& spacing) {
@@ -41,9 +56,10 @@ SweepDirection make_direction(const Kind& kind, Stencil stencil,
   return d;
 }
 
-constexpr int kTableSide = 16;  // normals per side of the octahedral map
-constexpr int kPerVoxel = 8;    // heights per voxel
-constexpr int kReach = 3;       // voxels above and below the plane
+// Normals per side of the octahedral map; odd, so that the axes are among them.
+constexpr int kTableSide = 17;
+constexpr int kPerVoxel = 4;  // heights per voxel
+constexpr int kReach = 3;     // voxels above and below the plane
 constexpr int kHeights = 2 * kReach * kPerVoxel + 1;
 
 std::array<float, 3> octahedral(float u, float v) {  // u, v in [-1, 1]
@@ -65,7 +81,10 @@ class PlaneScheme {
               const std::array<float, 3>& spacing, float unit, float alpha)
       : per_height_(kPerVoxel / unit), unit_(unit), alpha_(alpha) {
     std::array<float, 3> rise;  // of the plane's height, one voxel towards the light
-    for (int a = 0; a < 3; ++a) rise[a] = normal[a] * spacing[a];
+    for (int a = 0; a < 3; ++a) {
+      rise[a] = normal[a] * spacing[a];
+      spread2_ += rise[a] * rise[a] / 6;
+    }
     if (d.stencil == Stencil::kUpwind) {
       add(1 - d.first - d.second, rise[2]);
       add(d.first, rise[0]);
@@ -93,7 +112,10 @@ class PlaneScheme {
       }
       if (change < 1e-3f) break;
     }
-    return at(height);
+    // The look-up interpolates between voxels, whose heights spread around the point's by this
+    // much, whatever the point's place between them.
+    const float spread = std::sqrt(3.0f * spread2_);
+    return (at(height - spread) + 4 * at(height) + at(height + spread)) / 6;
   }
 
  private:
@@ -115,6 +137,7 @@ class PlaneScheme {
   }
 
   float per_height_, unit_, alpha_;
+  float spread2_ = 0;
   int count_ = 0;
   float weight_[4], rise_[4], value_[kHeights];
 };
@@ -134,20 +157,20 @@ TransportScheme transport_scheme(Transport transport, const std::array<float, 3>
     case Transport::kFast:
       s.cell = 2;
       s.plane = true;
-      s.lookup = 1.0f;
+      s.lookup = kLookup;
       add(kS4, Stencil::kCharacteristic);
       break;
     case Transport::kBalanced:
       s.cell = 2;
       s.plane = true;
-      s.lookup = 1.5f;
-      add(kS6, Stencil::kUpwind);
+      s.lookup = kLookup;
+      add(kS6, Stencil::kCharacteristic);
       break;
     case Transport::kAccurate:
       s.cell = 2;
       s.plane = true;
-      s.lookup = 1.25f;
-      add(kS6, Stencil::kCharacteristic);
+      s.lookup = kLookup;
+      add(kS8, Stencil::kCharacteristic);
       break;
   }
   return s;
@@ -165,6 +188,9 @@ PlaneTable::PlaneTable(const TransportScheme& scheme, const std::array<float, 3>
       for (int a = 0; a < 3; ++a) height += normal[a] * normal[a] * spacing[a] * scheme.lookup;
       float* out = values_.data() + static_cast<std::size_t>(row * kTableSide + column) * count_;
       for (int i = 0; i < count_; ++i) {
+        const auto& w = scheme.directions[i].direction;
+        // Directions below the plane are never divided; those near it take part in interpolation.
+        if (w[0] * normal[0] + w[1] * normal[1] + w[2] * normal[2] < -0.3f) continue;
         PlaneScheme plane(scheme.directions[i], normal, spacing, unit, alpha);
         out[i] = std::max(plane.visibility(height), 1e-3f);
       }

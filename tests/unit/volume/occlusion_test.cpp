@@ -219,7 +219,7 @@ TEST(Occlusion, ASphereOverAPlaneIsItsClosedForm) {
   EXPECT_LT(rms(v), 0.02);
   for (Transport t : {Transport::kFast, Transport::kBalanced, Transport::kAccurate}) {
     ASSERT_TRUE(field_of(d, {.transport = t}).light(points, {}, v).ok());
-    EXPECT_LT(rms(v), 0.08) << enum_name(t);
+    EXPECT_LT(rms(v), t == Transport::kFast ? 0.1 : 0.08) << enum_name(t);
   }
 }
 

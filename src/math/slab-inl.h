@@ -14,8 +14,8 @@
 #endif
 
 #include "hwy/highway.h"
-#include "math/angle-inl.h"
 #include "math/falloff-inl.h"
+#include "math/fast-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -87,6 +87,16 @@ HWY_INLINE Horizon<D> StartHorizon(D d, const Slice<V>& s, bool from_receiver) {
   return h;
 }
 
+template <FalloffKind kKind, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE V RhoOf(D d, const math::Rho& rho, V distance) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  if constexpr (kKind == FalloffKind::kExponential) {
+    return FastExpNegative(d, hn::Mul(distance, hn::Set(d, rho.inverse_radius)));
+  } else {
+    return EvaluateRho<kKind>(d, rho, distance);
+  }
+}
+
 // Adds the next point outwards. `share` is the part of the slice's width in which the point stands,
 // 1 unless kPartial: the rest stays open, and the horizon moves by that part only.
 template <FalloffKind kKind, bool kChord, bool kPartial, class D,
@@ -96,7 +106,7 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   namespace hn = hwy::HWY_NAMESPACE;
   const V one = hn::Set(d, 1.0f), zero = hn::Zero(d), tiny = hn::Set(d, 1e-30f);
   const V square = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), tiny);
-  const V inverse = hn::Div(one, hn::Sqrt(square));
+  const V inverse = FastInverseSqrt(d, square);
   const V cosine = hn::Mul(y, inverse);
   const M visible = hn::And(valid, hn::Gt(cosine, h.cosine));
   if (hn::AllFalse(d, visible)) {
@@ -125,16 +135,17 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
     const V numerator = hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex)));
     V mx = hn::Add(h.sine_c, sine_c), my = hn::Add(h.cosine_c, cosine_c);
     const V m2 = hn::Max(hn::MulAdd(mx, mx, hn::Mul(my, my)), tiny);
-    const V im = hn::Div(one, hn::Sqrt(m2));
+    const V im = FastInverseSqrt(d, m2);
     mx = hn::Mul(mx, im);
     my = hn::Mul(my, im);
     auto node = [&](V wx, V wy, float gauss, V& weights, V& values) HWY_ATTR {
       const V denominator = hn::Max(hn::Abs(hn::MulSub(wx, ey, hn::Mul(wy, ex))), tiny);
-      const V distance = hn::Min(hn::Div(numerator, denominator), hn::Set(d, 1e30f));
+      const V distance =
+          hn::Min(hn::Mul(numerator, FastReciprocal(d, denominator)), hn::Set(d, 1e30f));
       const V lobe = hn::Mul(wx, hn::MulAdd(s.nz, wy, hn::Mul(s.nt, wx)));
       const V w = hn::Mul(hn::Max(lobe, hn::Set(d, 1e-12f)), hn::Set(d, gauss));
       weights = hn::Add(weights, w);
-      values = hn::MulAdd(w, EvaluateRho<kKind>(d, rho, distance), values);
+      values = hn::MulAdd(w, RhoOf<kKind>(d, rho, distance), values);
     };
     const V half_piece = hn::Mul(hn::Set(d, 0.5f), hn::Sub(h.angle_c, angle_c));
     V weights = zero, values = zero;
@@ -145,7 +156,7 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
     node(mx, my, 8.0f / 9, weights, values);
     node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
          weights, values);
-    V piece = hn::Div(hn::Mul(weight, values), weights);
+    V piece = hn::Mul(hn::Mul(weight, values), FastReciprocal(d, weights));
     if constexpr (kPartial) piece = hn::Mul(piece, share);
     h.sum = hn::Add(h.sum, hn::IfThenElseZero(hn::Gt(weight, zero), piece));
   }

@@ -1,6 +1,7 @@
 // Properties of far-field ambient obscurance as users call it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -106,6 +107,53 @@ TEST(FarField, TiltedPlanesAreOpen) {
   EXPECT_LT(worst, 0.01);
 }
 
+TEST(FarField, TiltedPlanesOfFiniteMatterAreOpen) {
+  for (int i = 0; i < 6; ++i) {
+    const double tilt = 0.15 * i;
+    const synthetic::Input in =
+        synthetic::plane(120, 90, Camera::perspective(1.0f, 120, 90), std::sin(tilt) * 0.8,
+                         std::sin(tilt) * 0.6, std::cos(tilt), 10);
+    for (float thickness : {0.01f, 0.3f, 1e6f}) {
+      FarFieldSettings s = quick();
+      s.falloff.radius = kInf;
+      s.occluder = Occluder::of_thickness(thickness);
+      const std::vector<float> v = visibility(in.field(), s);
+      double sum = 0;
+      for (float x : v) sum += x;
+      EXPECT_GT(sum / v.size(), 0.99) << tilt << " " << thickness;
+    }
+  }
+}
+
+// A thin plate before a wall, both facing the camera: light passes behind the plate.
+TEST(FarField, LightPassesBehindThinMatter) {
+  synthetic::Input in =
+      synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);
+  in.normals.clear();
+  std::vector<float> back(in.depth.size(), 10.1f);
+  for (int y = 40; y < 80; ++y) {
+    for (int x = 60; x < 100; ++x) {
+      in.depth[y * 160 + x] = 5;
+      back[y * 160 + x] = 5.1f;
+    }
+  }
+  FarFieldSettings s;
+  s.falloff.radius = kInf;
+  const std::size_t beside = 60 * 160 + 55;  // on the wall, five pixels from the plate's outline
+  const float solid = visibility(in.field(), s)[beside];
+  s.occluder = Occluder::of_thickness(0.1f);
+  const float thick = visibility(in.field(), s)[beside];
+  s.occluder = Occluder::back_depth();
+  DepthField field = in.field();
+  field.back_depth = {back.data(), 160, 120};
+  const float given = visibility(field, s)[beside];
+  // Solid, the plate's matter is a wall on one side; a third is gone.
+  EXPECT_LT(solid, 0.7f);
+  EXPECT_NEAR(thick, given, 0.01f);
+  // The plate, 2.7 wide, floats 5 in front and takes little of the sky.
+  EXPECT_GT(given, 0.85f);
+}
+
 TEST(FarField, MirroredInputGivesMirroredOutput) {
   synthetic::Input in = synthetic::blocks(150, 70, Camera::perspective(1.0f, 150, 70), 3);
   const std::vector<float> v = visibility(in.field(), quick());
@@ -142,6 +190,8 @@ TEST(FarField, ExtremesHaveDefinedValues) {
           FarFieldSettings s = quick();
           s.profile = profile;
           s.interval = 4;
+          EXPECT_TRUE(all_in_range(visibility(in.field(), s))) << w << "x" << h << " " << scale;
+          s.occluder = Occluder::of_thickness(static_cast<float>(0.1 * scale));
           EXPECT_TRUE(all_in_range(visibility(in.field(), s))) << w << "x" << h << " " << scale;
         }
       }

@@ -35,7 +35,7 @@ constexpr int kMaxIntervals = 64;
 // Which intervals a segment reads for the receivers of row `row` (counted outwards): the nearest is
 // at least one interval away; every second one climbs a level of the pyramid (section 6).
 int list_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
-                   int interval, int row, ScanBuffer* buffer, IntervalRead* reads) {
+                   int interval, int row, bool finite, ScanBuffer* buffer, IntervalRead* reads) {
   int count = 0, level = 0;
   int strip = (row + direction.phase + 2 * interval - 1) / interval;
   while (strip < buffer->strips(level) && count < kMaxIntervals) {
@@ -47,8 +47,22 @@ int list_intervals(const Direction& direction, const Segment& segment, const Lin
     if (first > last) {
       first = last = static_cast<int>(std::floor(segment.middle * away - shift + 0.5));
     }
-    reads[count++] = {buffer->sums(level, strip), first, last + 1,
-                      static_cast<float>(1.0 / (last + 1 - first))};
+    IntervalRead& read = reads[count++];
+    read = {.sums = {},
+            .first = first,
+            .last = last + 1,
+            .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
+            .nearest = nullptr,
+            .slanted = nullptr,
+            .deepest = nullptr,
+            .middle = static_cast<int>(std::floor(segment.middle * away - shift + 0.5))};
+    if (finite) {
+      read.nearest = buffer->nearest(level, strip);
+      read.slanted = buffer->slanted(level, strip);
+      read.deepest = buffer->deepest(level, strip);
+    } else {
+      read.sums = buffer->sums(level, strip);
+    }
     ++strip;
     if (strip % 2 == 0 && level + 1 < buffer->levels()) {
       strip /= 2;
@@ -58,6 +72,12 @@ int list_intervals(const Direction& direction, const Segment& segment, const Lin
   return count;
 }
 
+// The same for a slice and its mirror image.
+float dither(const Direction& direction, const Segment& segment) {
+  const double x = 5.3 * std::abs(segment.middle) + 0.37 * direction.transposed;
+  return static_cast<float>(x - std::floor(x) - 0.5);
+}
+
 class FarFieldMethod final : public Method {
  public:
   FarFieldMethod(const FarFieldSettings& settings, math::Rho rho)
@@ -65,13 +85,15 @@ class FarFieldMethod final : public Method {
     margin_ = sideways_reach(directions_, settings.interval) + 2 * PrefixSums::kPadding;
   }
 
-  view::Needs needs() const override { return {.normals = true}; }
+  view::Needs needs() const override {
+    return {.normals = true, .back_depth = settings_.occluder.kind == OccluderKind::kBackDepth};
+  }
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};
     Executor& executor = context.executor;
     for (bool transposed : {false, true}) {
-      fill_plane(g, transposed, margin_, executor, &planes_[transposed]);
+      fill_plane(g, settings_.occluder, transposed, margin_, executor, &planes_[transposed]);
     }
     Progress progress(static_cast<std::int64_t>(directions_.size()), context.progress);
     for (const Direction& direction : directions_) {
@@ -107,15 +129,19 @@ class FarFieldMethod final : public Method {
                        .lines = layout.lines,
                        .tap_count = 0,
                        .intervals = reads,
-                       .interval_count = 0};
+                       .interval_count = 0,
+                       .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
+                       .slack = join_slack(p),
+                       .dither = dither(direction, segment)};
           while (job.tap_count < static_cast<int>(segment.taps.size())) {
             const NearTap& tap = segment.taps[job.tap_count];
             if (tap.along >= near_rows || row + tap.dv + (tap.wv > 0 ? 1 : 0) >= p.height) break;
             ++job.tap_count;
           }
           job.interval_count =
-              list_intervals(direction, segment, layout, interval, row, &buffer_, reads);
-          add_slices(job, p.obscurance.row(y));
+              list_intervals(direction, segment, layout, interval, row, p.finite, &buffer_, reads);
+          p.finite ? add_matter_slices(job, p.obscurance.row(y))
+                   : add_slices(job, p.obscurance.row(y));
         }
       }
     });
@@ -161,8 +187,8 @@ Status make_far_field(const FarFieldSettings& settings, std::unique_ptr<Method>*
     return invalid_argument(
         text("near_step is ", step, "; it must be in [0.125, 8], or 0 for adaptive"));
   }
-  if (settings.occluder.kind != OccluderKind::kSolid) {
-    return unsupported("this method takes the solid occluder only");
+  if (settings.occluder.kind == OccluderKind::kLayers) {
+    return unsupported("the far field takes the occluders solid, thickness and back-depth");
   }
   math::Rho rho;
   if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;

@@ -6,7 +6,8 @@
 namespace obscura::far_field {
 namespace {
 
-constexpr int kTile = 32;  // rows per task; a transposed tile's lines stay in the cache
+constexpr float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
+constexpr int kTile = 32;          // rows per task; a transposed tile's lines stay in the cache
 
 // out(x, y) = value(u, v) with (u, v) = transposed ? (y, x) : (x, y), tile by tile.
 template <class Row, class Value>
@@ -30,8 +31,8 @@ void MarginImage::resize(int width, int height, int margin) {
   image_.resize(width + 2 * margin_, height);
 }
 
-void fill_plane(const view::Geometry& g, bool transposed, int margin, Executor& executor,
-                Plane* plane) {
+void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transposed, int margin,
+                Executor& executor, Plane* plane) {
   Plane& p = *plane;
   const Camera& c = g.camera;
   p.orthographic = c.orthographic;
@@ -49,22 +50,36 @@ void fill_plane(const view::Geometry& g, bool transposed, int margin, Executor& 
   p.center_u = transposed ? cv : cu;
   p.center_v = transposed ? cu : cv;
 
-  p.lattice.resize(p.width, p.height, margin);
   auto texel = [&](const AlignedImage<float>& image, int x, int y) {
     return transposed ? image(y, x) : image(x, y);
   };
-  executor.parallel_for(p.height, [&](int y, int) {
-    float* row = p.lattice.row(y);
-    std::fill(row - p.lattice.margin(), row, 0.0f);
-    std::fill(row + p.width, row + p.width + p.lattice.margin(), 0.0f);
+  auto lattice = [&](MarginImage* image, auto value) {
+    image->resize(p.width, p.height, margin);
+    executor.parallel_for(p.height, [&](int y, int) {
+      float* row = image->row(y);
+      std::fill(row - image->margin(), row, 0.0f);
+      std::fill(row + p.width, row + p.width + image->margin(), 0.0f);
+    });
+    fill(
+        p.width, p.height, executor, [&](int y) { return image->row(y); }, value);
+  };
+  lattice(&p.lattice, [&](int x, int y) {
+    const float d = texel(g.depth, x, y);
+    if (!std::isfinite(d)) return 0.0f;
+    return p.orthographic ? p.kappa - d : 1 / d;
   });
-  fill(
-      p.width, p.height, executor, [&](int y) { return p.lattice.row(y); },
-      [&](int x, int y) {
-        const float d = texel(g.depth, x, y);
-        if (!std::isfinite(d)) return 0.0f;
-        return p.orthographic ? p.kappa - d : 1 / d;
-      });
+  p.finite = occluder.kind != OccluderKind::kSolid;
+  if (p.finite) {
+    const bool given = occluder.kind == OccluderKind::kBackDepth;
+    lattice(&p.back, [&](int x, int y) {
+      const float d = texel(g.depth, x, y);
+      if (!std::isfinite(d)) return 0.0f;
+      if (given) return std::min(texel(g.back_depth, x, y), kFarBack);
+      const float a = (x - p.center_u) * p.scale_u, b = (y - p.center_v) * p.scale_v;
+      const float ray = p.orthographic ? 1.0f : std::sqrt(1 + a * a + b * b);
+      return std::min(d + occluder.thickness / ray, kFarBack);
+    });
+  }
 
   p.normal_u.resize(p.visible_width, p.visible_height);
   p.normal_v.resize(p.visible_width, p.visible_height);

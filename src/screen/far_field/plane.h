@@ -2,6 +2,7 @@
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_PLANE_H_
 
 #include "core/aligned_image.h"
+#include "obscura/occluder.h"
 #include "view/geometry.h"
 
 namespace obscura::far_field {
@@ -41,13 +42,18 @@ struct Plane {
   MarginImage lattice;
   float kappa = 0;
 
+  // Finite occluders: the depth at which each texel's matter ends; 0 on the background.
+  bool finite = false;
+  MarginImage back;
+
   AlignedImage<float> normal_u, normal_v, normal_w;  // visible part; normal_w > 0 points away
   AlignedImage<float> obscurance;                    // visible part; sums of w_k times slices
 };
 
-// Fills the plane from the geometry; `margin` is the plane's, in texels.
-void fill_plane(const view::Geometry& geometry, bool transposed, int margin, Executor& executor,
-                Plane* plane);
+// Fills the plane from the geometry; `margin` is the plane's, in texels. Finite thickness is a
+// length along the view ray.
+void fill_plane(const view::Geometry& geometry, const Occluder& occluder, bool transposed,
+                int margin, Executor& executor, Plane* plane);
 
 }  // namespace obscura::far_field
 

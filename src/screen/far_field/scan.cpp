@@ -31,25 +31,38 @@ void ScanBuffer::resize(const Plane& plane, const Direction& direction, int inte
     level_start_.push_back(level_start_.back() + strips);
     if (strips <= 2) break;
   }
-  const int width = round_up(lines_ + 1) + 3 * PrefixSums::kPadding;
-  depth_.resize(width, level_start_.back());
-  outward_.resize(width, level_start_.back());
-  count_.resize(width, level_start_.back());
-  nearest_.resize(round_up(lines_), level_start_.back());
-  slanted_.resize(round_up(lines_), level_start_.back());
+  const int width = round_up(lines_ + 1) + 3 * PrefixSums::kPadding, rows = level_start_.back();
+  nearest_.resize(width, rows);
+  slanted_.resize(width, rows);
+  if (plane.finite) {
+    deepest_.resize(width, rows);
+  } else {
+    depth_.resize(width, rows);
+    outward_.resize(width, rows);
+    count_.resize(width, rows);
+  }
 }
 
 PrefixSums ScanBuffer::sums(int level, int strip) {
   const int i = index(level, strip), pad = PrefixSums::kPadding;
   return {depth_.row(i) + pad, outward_.row(i) + pad, count_.row(i) + pad};
 }
-float* ScanBuffer::nearest(int level, int strip) { return nearest_.row(index(level, strip)); }
-float* ScanBuffer::slanted(int level, int strip) { return slanted_.row(index(level, strip)); }
+float* ScanBuffer::nearest(int level, int strip) {
+  return nearest_.row(index(level, strip)) + PrefixSums::kPadding;
+}
+float* ScanBuffer::slanted(int level, int strip) {
+  return slanted_.row(index(level, strip)) + PrefixSums::kPadding;
+}
+float* ScanBuffer::deepest(int level, int strip) {
+  return deepest_.row(index(level, strip)) + PrefixSums::kPadding;
+}
 
 std::size_t ScanBuffer::bytes() const {
-  const std::size_t rows = level_start_.back();
-  return rows * (sizeof(double) * (depth_.stride() + outward_.stride()) +
-                 sizeof(float) * (count_.stride() + nearest_.stride() + slanted_.stride()));
+  const std::size_t doubles = depth_.stride() * depth_.height() * 2;
+  const std::size_t floats = count_.stride() * count_.height() +
+                             2 * nearest_.stride() * nearest_.height() +
+                             deepest_.stride() * deepest_.height();
+  return doubles * sizeof(double) + floats * sizeof(float);
 }
 
 void scan(const Plane& plane, const Direction& direction, int interval, int receiver_slope,
@@ -58,6 +71,7 @@ void scan(const Plane& plane, const Direction& direction, int interval, int rece
   const LineLayout layout(plane, direction);
   const float slope = receiver_slope < 0 ? 1.0f : -1.0f;
   const int padded = round_up(layout.lines);
+  const float slack = join_slack(plane);
   executor.parallel_for(buffer->strips(0), [&](int strip, int) {
     ScanRow rows[kMaxInterval];
     const int start = strip * interval - direction.phase, first = std::max(start, 0);
@@ -67,7 +81,8 @@ void scan(const Plane& plane, const Direction& direction, int interval, int rece
       const int r = first + i, v = direction.sign > 0 ? r : plane.height - 1 - r;
       const double shift = layout.shift(r), whole = std::floor(shift);
       const int offset = static_cast<int>(whole);
-      rows[i] = {plane.lattice.row(v), offset, static_cast<float>(shift - whole),
+      rows[i] = {plane.lattice.row(v), plane.finite ? plane.back.row(v) : nullptr, offset,
+                 static_cast<float>(shift - whole),
                  direction.sign * (v - plane.center_v) * plane.scale_v};
       begin = std::min(begin, -offset - 1);
       end = std::max(end, plane.width - offset);
@@ -77,11 +92,19 @@ void scan(const Plane& plane, const Direction& direction, int interval, int rece
     float* nearest = buffer->nearest(0, strip);
     float* slanted = buffer->slanted(0, strip);
     constexpr float kInf = std::numeric_limits<float>::infinity();
-    std::fill(nearest, nearest + begin, kInf);
-    std::fill(nearest + end, nearest + padded, kInf);
-    std::fill(slanted, slanted + begin, -kInf);
-    std::fill(slanted + end, slanted + padded, -kInf);
-    scan_strip({rows, count, begin, end, plane.orthographic, plane.kappa, slope, nearest, slanted});
+    constexpr int kPad = PrefixSums::kPadding;
+    auto clear = [&](float* row, float value) {
+      std::fill(row - kPad, row + begin, value);
+      std::fill(row + end, row + padded + kPad, value);
+    };
+    clear(nearest, kInf);
+    clear(slanted, -kInf);
+    float* deepest = plane.finite ? buffer->deepest(0, strip) : nullptr;
+    if (deepest) clear(deepest, 0);
+    const StripJob job{rows,  count,   begin,   end,    plane.orthographic, plane.kappa, slope,
+                       slack, nearest, slanted, deepest};
+    if (plane.finite) return scan_matter(job);
+    scan_strip(job);
     sum_lines(layout.lines, slope, nearest, slanted, buffer->sums(0, strip));
   });
   for (int level = 1; level < buffer->levels(); ++level) {
@@ -89,6 +112,16 @@ void scan(const Plane& plane, const Direction& direction, int interval, int rece
       const int a = 2 * strip, b = std::min(a + 1, buffer->strips(level - 1) - 1);
       float* nearest = buffer->nearest(level, strip);
       float* slanted = buffer->slanted(level, strip);
+      if (plane.finite) {
+        constexpr int kPad = PrefixSums::kPadding;
+        auto raw = [&](int l, int i) {
+          return RawStrip{buffer->nearest(l, i) - kPad, buffer->slanted(l, i) - kPad,
+                          buffer->deepest(l, i) - kPad};
+        };
+        merge_matter(padded + 2 * kPad, slack, raw(level - 1, a), raw(level - 1, b),
+                     raw(level, strip));
+        return;
+      }
       merge_strips(padded, buffer->nearest(level - 1, a), buffer->slanted(level - 1, a),
                    buffer->nearest(level - 1, b), buffer->slanted(level - 1, b), nearest, slanted);
       sum_lines(layout.lines, slope, nearest, slanted, buffer->sums(level, strip));

@@ -24,14 +24,17 @@ struct PrefixSums {
 // counted from the edge at which scanned lines begin.
 class ScanBuffer {
  public:
+  // Finite occluders read single lines and need no sums, but where the matter ends.
   void resize(const Plane& plane, const Direction& direction, int interval);
 
   int lines() const { return lines_; }
   int levels() const { return static_cast<int>(level_start_.size()) - 1; }
   int strips(int level) const { return level_start_[level + 1] - level_start_[level]; }
   PrefixSums sums(int level, int strip);
-  float* nearest(int level, int strip);  // raw: -m0 per line, +inf where no surface
-  float* slanted(int level, int strip);  // raw: m1 per line
+  // Raw, padded like the sums with lines that saw nothing.
+  float* nearest(int level, int strip);  // -m0 per line, +inf where no surface
+  float* slanted(int level, int strip);  // m1 per line
+  float* deepest(int level, int strip);  // finite occluders: depth at which the matter ends
   std::size_t bytes() const;
 
  private:
@@ -40,7 +43,7 @@ class ScanBuffer {
   int lines_ = 0;
   std::vector<int> level_start_;
   AlignedImage<double> depth_, outward_;
-  AlignedImage<float> count_, nearest_, slanted_;
+  AlignedImage<float> count_, nearest_, slanted_, deepest_;
 };
 
 // Line j crosses row r (counted outwards) at u = j + shift(r).
@@ -51,6 +54,13 @@ struct LineLayout {
   double slope, first;
   int lines;
 };
+
+// Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
+// surface seen at a grazing angle.
+inline constexpr float kJoinedPixels = 8;
+inline float join_slack(const Plane& plane) {
+  return kJoinedPixels * (plane.scale_u > plane.scale_v ? plane.scale_u : plane.scale_v);
+}
 
 // Algorithm 1 in parallel lines, the pyramid, and section 7's sums over lines.
 void scan(const Plane& plane, const Direction& direction, int interval, int receiver_slope,

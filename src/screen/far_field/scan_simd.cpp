@@ -39,8 +39,91 @@ void ScanStrip(const StripJob& job) {
       nearest = hn::Min(nearest, hn::IfThenElse(surface, depth, inf));
       slanted = hn::Max(slanted, hn::IfThenElse(surface, height, hn::Neg(inf)));
     }
-    hn::Store(nearest, d, job.nearest + j);
-    hn::Store(slanted, d, job.slanted + j);
+    hn::StoreU(nearest, d, job.nearest + j);
+    hn::StoreU(slanted, d, job.slanted + j);
+  }
+}
+
+// One connected piece of matter of a line.
+struct Piece {
+  V nearest, slanted, deepest;
+};
+HWY_INLINE void KeepNearer(const Piece& piece, Piece* best) {
+  const auto nearer = hn::Lt(piece.nearest, best->nearest);
+  best->nearest = hn::IfThenElse(nearer, piece.nearest, best->nearest);
+  best->slanted = hn::IfThenElse(nearer, piece.slanted, best->slanted);
+  best->deepest = hn::IfThenElse(nearer, piece.deepest, best->deepest);
+}
+
+void ScanMatter(const StripJob& job) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), slope = hn::Set(d, job.slope);
+  const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
+  const V slack = hn::Set(d, job.slack);
+  for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
+    Piece best{inf, hn::Neg(inf), zero}, piece = best;
+    V last = inf, last_back = zero;
+    for (int i = 0; i < job.row_count; ++i) {
+      const ScanRow& row = job.rows[i];
+      const int at = j + row.offset;
+      auto depth_of = [&](V g) HWY_ATTR {
+        return job.orthographic ? hn::Sub(hn::Set(d, job.kappa), g) : hn::Div(one, g);
+      };
+      const V a = hn::LoadU(d, row.lattice + at), b = hn::LoadU(d, row.lattice + at + 1);
+      const V back_a = hn::LoadU(d, row.back + at), back_b = hn::LoadU(d, row.back + at + 1);
+      const V tiny = hn::Set(d, 1e-30f);
+      const V da = depth_of(hn::Max(a, tiny)), db = depth_of(hn::Max(b, tiny));
+      // Between texels whose matter does not touch, the nearer one decides.
+      const auto both = hn::And(hn::Gt(hn::Min(a, b), zero),
+                                hn::Le(hn::Sub(hn::Max(da, db), hn::Min(back_a, back_b)),
+                                       hn::Mul(slack, hn::Min(da, db))));
+      const bool first = row.blend < 0.5f;
+      const V blended = hn::MulAdd(hn::Set(d, row.blend), hn::Sub(b, a), a);
+      const V g = hn::IfThenElse(both, blended, first ? a : b);
+      const auto surface = hn::Gt(g, zero);
+      const V depth = depth_of(hn::Max(g, tiny));
+      const V back = hn::Max(first ? back_a : back_b, depth);
+      const V outward = hn::Mul(hn::Set(d, row.outward), job.orthographic ? one : depth);
+      const V height = hn::MulSub(slope, outward, depth);
+      const auto joined =
+          hn::And(surface, hn::Le(hn::Sub(hn::Max(depth, last), hn::Min(back, last_back)),
+                                  hn::Mul(slack, hn::Min(depth, last))));
+      KeepNearer(piece, &best);
+      piece.nearest = hn::IfThenElse(
+          surface, hn::IfThenElse(joined, hn::Min(piece.nearest, depth), depth), inf);
+      piece.slanted = hn::IfThenElse(joined, hn::Max(piece.slanted, height), height);
+      piece.deepest = hn::IfThenElse(joined, hn::Max(piece.deepest, back), back);
+      last = hn::IfThenElse(surface, depth, inf);
+      last_back = hn::IfThenElse(surface, back, zero);
+    }
+    KeepNearer(piece, &best);
+    hn::StoreU(best.nearest, d, job.nearest + j);
+    hn::StoreU(best.slanted, d, job.slanted + j);
+    hn::StoreU(best.deepest, d, job.deepest + j);
+  }
+}
+
+void MergeMatter(int lines, float slack, const RawStrip& a, const RawStrip& b,
+                 const RawStrip& out) {
+  const D d;
+  for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
+    auto load = [&](const RawStrip& s) HWY_ATTR {
+      return Piece{hn::LoadU(d, s.nearest + j), hn::LoadU(d, s.slanted + j),
+                   hn::LoadU(d, s.deepest + j)};
+    };
+    const Piece p = load(a), q = load(b);
+    Piece nearer = p;
+    KeepNearer(q, &nearer);
+    const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
+    const V farther = hn::Max(p.nearest, q.nearest);
+    const auto joined =
+        hn::And(hn::Lt(farther, inf), hn::Le(hn::Sub(farther, hn::Min(p.deepest, q.deepest)),
+                                             hn::Mul(hn::Set(d, slack), nearer.nearest)));
+    hn::StoreU(nearer.nearest, d, out.nearest + j);
+    hn::StoreU(hn::IfThenElse(joined, hn::Max(p.slanted, q.slanted), nearer.slanted), d,
+               out.slanted + j);
+    hn::StoreU(hn::IfThenElse(joined, hn::Max(p.deepest, q.deepest), nearer.deepest), d,
+               out.deepest + j);
   }
 }
 
@@ -48,8 +131,8 @@ void MergeStrips(int lines, const float* near_a, const float* slant_a, const flo
                  const float* slant_b, float* nearest, float* slanted) {
   const D d;
   for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    hn::Store(hn::Min(hn::Load(d, near_a + j), hn::Load(d, near_b + j)), d, nearest + j);
-    hn::Store(hn::Max(hn::Load(d, slant_a + j), hn::Load(d, slant_b + j)), d, slanted + j);
+    hn::StoreU(hn::Min(hn::LoadU(d, near_a + j), hn::LoadU(d, near_b + j)), d, nearest + j);
+    hn::StoreU(hn::Max(hn::LoadU(d, slant_a + j), hn::LoadU(d, slant_b + j)), d, slanted + j);
   }
 }
 
@@ -62,8 +145,17 @@ namespace obscura::far_field {
 
 HWY_EXPORT(ScanStrip);
 HWY_EXPORT(MergeStrips);
+HWY_EXPORT(ScanMatter);
+HWY_EXPORT(MergeMatter);
 
 void scan_strip(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanStrip)(job); }
+
+void scan_matter(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanMatter)(job); }
+
+void merge_matter(int lines, float slack, const RawStrip& a, const RawStrip& b,
+                  const RawStrip& out) {
+  HWY_DYNAMIC_DISPATCH(MergeMatter)(lines, slack, a, b, out);
+}
 
 void merge_strips(int lines, const float* near_a, const float* slant_a, const float* near_b,
                   const float* slant_b, float* nearest, float* slanted) {

@@ -14,6 +14,10 @@ struct IntervalRead {
   PrefixSums sums;
   int first, last;
   float inverse_lines;  // 1 / (last - first)
+
+  // Finite occluders average nothing: the line at u + middle.
+  const float *nearest, *slanted, *deepest;
+  int middle;
 };
 
 // One segment of one direction for a row of receivers.
@@ -29,10 +33,18 @@ struct SliceRow {
   int tap_count;  // of segment->taps
   const IntervalRead* intervals;
   int interval_count;
+
+  // Finite occluders.
+  float slope;   // of the scan's second height: +1 or -1
+  float slack;   // relative gap in depth that joins neighbours
+  float dither;  // [-0.5, 0.5)
 };
 
 // Adds w_k times the slice's integral (equation 2) to the row of plane->obscurance.
 void add_slices(const SliceRow& job, float* obscurance);
+
+// The same where matter has an end (Plane::finite).
+void add_matter_slices(const SliceRow& job, float* obscurance);
 
 }  // namespace obscura::far_field
 

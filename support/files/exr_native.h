@@ -35,6 +35,11 @@ Status guard_exr(const std::string& path, F&& f) {
   }
 }
 
+// Walks over the attributes of all headers before OpenEXR does, since that allocates what an
+// attribute claims to hold: one that reaches beyond the end of the file, or has not the size of its
+// type, is found here.
+Status check_exr_attributes(const std::string& path);
+
 // Opens a file, fills `header` from its first part and checks what that part claims against the
 // file's length before anything of that size is allocated. May throw: see guard_exr.
 Status open_exr(const std::string& path, ExrHeader* header,

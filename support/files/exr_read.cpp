@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <thread>
 
@@ -34,45 +33,6 @@ void set_up_once() {
     Imf::Header::setMaxImageSize(kMostPixels, kMostPixels);
     Imf::Header::setMaxTileSize(kMostPixels, kMostPixels);
   });
-}
-
-// Walks over the attributes of all headers: OpenEXR allocates what an attribute's size says, so
-// one that points beyond the end of the file is found here.
-Status check_attributes(const std::string& path) {
-  auto bad = [&](const char* what) {
-    return invalid_input(fmt::format("{}: not a readable EXR file ({})", path, what));
-  };
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const std::int64_t length = in.tellg();
-  in.seekg(0);
-  unsigned char start[8] = {};
-  in.read(reinterpret_cast<char*>(start), 8);
-  if (!in || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 || start[3] != 0x01) {
-    return bad("it does not begin like one");
-  }
-  const bool multi_part = (start[5] & 0x10) != 0;
-  auto skip_name = [&](bool* empty) {
-    int characters = 0;
-    for (int c = in.get(); c > 0; c = in.get()) ++characters;
-    *empty = characters == 0;
-    return in.good() && characters < 256;
-  };
-  for (bool any_part = false;; any_part = true) {
-    for (bool any_attribute = false;; any_attribute = true) {
-      bool empty;
-      if (!skip_name(&empty)) return bad("truncated or damaged in its header");
-      if (empty && !any_attribute && any_part) return {};  // the end of a multi-part file's headers
-      if (empty) break;
-      unsigned char b[4] = {};
-      if (!skip_name(&empty) || !in.read(reinterpret_cast<char*>(b), 4)) {
-        return bad("truncated or damaged in its header");
-      }
-      const std::int64_t size = b[0] | b[1] << 8 | b[2] << 16 | std::int64_t{b[3]} << 24;
-      if (size > length - in.tellg()) return bad("truncated or damaged in its header");
-      in.seekg(size, std::ios::cur);
-    }
-    if (!multi_part) return {};
-  }
 }
 
 void fill_header(const Imf::Header& native, ExrHeader* header) {
@@ -157,7 +117,7 @@ Status open_exr(const std::string& path, ExrHeader* header,
                 std::unique_ptr<Imf::MultiPartInputFile>* file) {
   if (Status s = check_readable(path); !s.ok()) return s;
   set_up_once();
-  if (Status s = check_attributes(path); !s.ok()) return s;
+  if (Status s = check_exr_attributes(path); !s.ok()) return s;
   *file = std::make_unique<Imf::MultiPartInputFile>(path.c_str());
   const Imf::Header& native = (*file)->header(0);
   fill_header(native, header);

@@ -1,7 +1,9 @@
 #ifndef OBSCURA_REFERENCE_H_
 #define OBSCURA_REFERENCE_H_
 
+#include <array>
 #include <cstdint>
+#include <functional>
 
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
@@ -30,6 +32,9 @@ struct ReferenceSettings {
   float beyond_border = 0;  // world units; 0: rays that leave the image see nothing
   float offset_px = 0;  // pixels; 0: 0.001 towards the camera, or 3 along the normal unless solid
   std::uint32_t seed = 1;
+  // C++ only: RGB radiance from a unit direction in eye space, for Outputs::radiance. Called from
+  // several threads.
+  std::function<std::array<float, 3>(const std::array<float, 3>&)> radiance{};
 };
 template <FieldsOf<ReferenceSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {

@@ -89,6 +89,7 @@ Status check_outputs(const Outputs& o, const DepthField& field, const OutputKind
   check_vector(o.uniform_integral, kinds.uniform_integral, "uniform-integral");
   check_vector(o.cosine_integral, kinds.cosine_integral, "cosine-integral");
   check(o.standard_error, kinds.standard_error, "standard-error");
+  check_vector(o.radiance, kinds.radiance, "radiance");
   check_vector(o.normal, true, "normal");
   if (status.ok() && !o.normal.empty() && field.normal_use == NormalUse::kNone) {
     status = invalid_argument("output normal is asked for, but normal_use is none");
@@ -115,6 +116,7 @@ void fill_background(const view::Geometry& g, const Outputs& o, Executor& execut
       set(o.cone_angle, x, 1.57079633f);
       set_vector(o.uniform_integral, x, 1);
       set_vector(o.cosine_integral, x, 2.0f / 3);
+      set_vector(o.radiance, x, 0);
       set(o.standard_error, x, 0);
     }
   });

@@ -15,6 +15,7 @@ struct OutputKinds {
   bool uniform_integral = false;
   bool cosine_integral = false;
   bool standard_error = false;
+  bool radiance = false;
 };
 
 struct RunContext {

@@ -1,9 +1,17 @@
+#include "support/reproduce/bent.h"
 #include "support/reproduce/reproduce.h"
 
 namespace obscura::support {
 
 const std::vector<Reproduction>& reproductions() {
-  static const std::vector<Reproduction> list = {};
+  static const std::vector<Reproduction> list = {
+      {"bent-overhead", "What bent normals and cones cost beside visibility (section 5)",
+       reproduce_bent_overhead},
+      {"bent-fig6", "Light through AO, bent normals and cones against the truth (figure 6)",
+       reproduce_bent_fig6},
+      {"bent-fig7", "Angles between screen-space and ray-traced bent normals (figure 7)",
+       reproduce_bent_fig7},
+  };
   return list;
 }
 

@@ -95,6 +95,15 @@ void PixelTracer::flush(const Frame& f) {
     piece.to->x += s.x;
     piece.to->y += s.y;
     piece.to->z += s.z;
+    if (!piece.lit) continue;
+    for (int i = piece.begin; i < piece.end; ++i) {
+      const RaySums one = sum_rays(*f.rho, batch_, i, i + 1);
+      if (one.open == 0) continue;
+      const auto light = f.settings->radiance({batch_.wx[i], batch_.wy[i], batch_.wz[i]});
+      for (int k = 0; k < 3; ++k) {
+        piece.to->radiance[k] += static_cast<double>(one.open) * light[k];
+      }
+    }
   }
   pieces_.clear();
   batch_.count = 0;
@@ -118,7 +127,7 @@ void PixelTracer::trace_set(const Frame& f, const Receiver& receiver, bool unifo
         set.count = std::min(end - set.first, RayBatch::kCapacity - batch_.count);
         const int begin = batch_.count;
         add_rays(*f.scene, receiver, set, &batch_);
-        pieces_.push_back({&slabs->of[net][slab], begin, batch_.count});
+        pieces_.push_back({&slabs->of[net][slab], begin, batch_.count, f.radiance && !uniform});
         if (batch_.count == RayBatch::kCapacity) flush(f);
       }
     }
@@ -148,6 +157,7 @@ void PixelTracer::trace(const Frame& f, const Pixel* pixels, int count, PixelEst
       e.direction[0] += (a.x + b.x) / rays;
       e.direction[1] += (a.y + b.y) / rays;
       e.direction[2] += (a.z + b.z) / rays;
+      for (int c = 0; c < 3; ++c) e.radiance[c] += (a.radiance[c] + b.radiance[c]) / rays;
       squares += (a.open - b.open) * (a.open - b.open);
     }
     // Each slab's difference has the variance of its sum. Of a single ray nothing is known but that

@@ -18,6 +18,7 @@ struct Pixel {
 struct HemisphereEstimate {
   double visibility = 0;
   double direction[3] = {};  // mean of V w
+  double radiance[3] = {};   // mean of V L, where it is asked for
   double standard_error = 0;
 };
 
@@ -38,6 +39,7 @@ class PixelTracer {
     const math::Rho* rho;
     const ReferenceSettings* settings;
     bool cosine, uniform;  // the weightings that are needed
+    bool radiance;         // with `cosine`
   };
 
   // Traces at most kMaxPixels pixels with finite depth.
@@ -47,6 +49,7 @@ class PixelTracer {
   static constexpr int kMaxSlabs = 4;
   struct Sums {
     double open = 0, x = 0, y = 0, z = 0;
+    double radiance[3] = {};
   };
   struct Slabs {
     Sums of[2][kMaxSlabs];
@@ -55,6 +58,7 @@ class PixelTracer {
   struct Piece {
     Sums* to;
     int begin, end;
+    bool lit;
   };
 
   void trace_set(const Frame& frame, const Receiver& receiver, bool uniform, std::uint32_t seed,

@@ -50,7 +50,9 @@ class ReferenceMethod final : public Method {
     if (settings_.occluder.kind == OccluderKind::kLayers) needs.layers = settings_.occluder.layers;
     return needs;
   }
-  OutputKinds output_kinds() const override { return {true, true, true, true, true}; }
+  OutputKinds output_kinds() const override {
+    return {true, true, true, true, true, static_cast<bool>(settings_.radiance)};
+  }
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     scene_.build(g, settings_.occluder, context.executor);
@@ -61,8 +63,9 @@ class ReferenceMethod final : public Method {
     tracers_.resize(context.executor.thread_count());
     const bool plain = !outputs.visibility.empty() || !outputs.standard_error.empty();
     const bool uniform = settings_.weighting == RayWeighting::kUniform;
-    PixelTracer::Frame frame{&g, &scene, &rho_, &settings_, false, false};
-    frame.cosine = (plain && !uniform) || !outputs.cosine_integral.empty();
+    PixelTracer::Frame frame{&g, &scene, &rho_, &settings_, false, false, false};
+    frame.radiance = !outputs.radiance.empty();
+    frame.cosine = (plain && !uniform) || !outputs.cosine_integral.empty() || frame.radiance;
     frame.uniform = (plain && uniform) || !outputs.bent_normal.empty() ||
                     !outputs.cone_angle.empty() || !outputs.uniform_integral.empty();
 
@@ -112,6 +115,7 @@ class ReferenceMethod final : public Method {
     write(o.visibility, p, std::clamp(asked.visibility, 0.0, 1.0));
     write(o.standard_error, p, asked.standard_error);
     write(o.cosine_integral, p, e.cosine.direction, 1);
+    write(o.radiance, p, e.cosine.radiance, 1);
     // Uniform rays have the density 1 / (2 pi): their mean is half of N.
     write(o.uniform_integral, p, e.uniform.direction, 2);
     if (o.bent_normal.empty() && o.cone_angle.empty()) return;

@@ -14,7 +14,7 @@ void each_scalar(const Outputs& o, F&& f) {
 }
 template <class F>
 void each_vector(const Outputs& o, F&& f) {
-  for (const auto* view : {&o.bent_normal, &o.uniform_integral, &o.cosine_integral}) {
+  for (const auto* view : {&o.bent_normal, &o.uniform_integral, &o.cosine_integral, &o.radiance}) {
     if (!view->empty()) f(*view, view == &o.bent_normal);
   }
 }

@@ -1,0 +1,15 @@
+#ifndef OBSCURA_SUPPORT_REPRODUCE_BENT_H_
+#define OBSCURA_SUPPORT_REPRODUCE_BENT_H_
+
+#include "support/reproduce/reproduce.h"
+
+// The figures of bent normals and cones (Klehm et al. 2011), measured again.
+namespace obscura::support {
+
+Status reproduce_bent_overhead(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_bent_fig6(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_bent_fig7(const ReproduceContext& context, Report* report, std::string* text);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_REPRODUCE_BENT_H_

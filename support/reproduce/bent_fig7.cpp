@@ -1,0 +1,112 @@
+// Figure 7 of bent normals and cones: angles between screen-space and ray-traced bent normals.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fmt/format.h"
+#include "support/pictures/pictures.h"
+#include "support/reproduce/bent.h"
+#include "support/reproduce/bent_scenes.h"
+
+namespace obscura::support {
+namespace {
+
+constexpr int kSize = 512, kRays = 1024, kEvery = 4;
+
+// Degrees between the directions, NaN where either has none.
+Image angles(const VectorView<float>& a, const VectorView<float>& b, const Rendering& rendering) {
+  const DepthInput& g = rendering.gbuffer;
+  Image image(a.x.width, a.x.height);
+  std::vector<float>& out = image.add("Y");
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double dot = double{a.x(x, y)} * b.x(x, y) + double{a.y(x, y)} * b.y(x, y) +
+                         double{a.z(x, y)} * b.z(x, y);
+      const std::size_t at = std::size_t(y + g.guard_band.top) * g.width + x + g.guard_band.left;
+      out[std::size_t(y) * image.width + x] =
+          std::isfinite(g.depth[at])
+              ? float(std::acos(std::clamp(dot, -1.0, 1.0)) * 180 / std::numbers::pi)
+              : NAN;
+    }
+  }
+  return image;
+}
+
+// Over the pixels that were traced.
+double mean(const Image& image) {
+  double sum = 0;
+  std::int64_t count = 0;
+  for (int y = kEvery / 2; y < image.height; y += kEvery) {
+    for (int x = kEvery / 2; x < image.width; x += kEvery) {
+      const float v = image.channels[0].values[std::size_t(y) * image.width + x];
+      if (std::isnan(v)) continue;
+      sum += v;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : NAN;
+}
+
+// The paper's 8x difference: white at 180 / 8 degrees.
+Image eightfold(const Image& degrees) {
+  Image picture = degrees;
+  for (float& v : picture.channels[0].values) v = std::isnan(v) ? 0 : std::min(8 * v / 180, 1.0f);
+  return picture;
+}
+
+struct Entry {
+  const char* name;
+  HemisphereSettings settings;
+};
+const Entry kEntries[] = {
+    {"8 samples, no steps", {.samples = 8, .steps = 0}},
+    {"8 samples, 3 steps", {.samples = 8, .steps = 3}},
+    {"16 samples, 3 steps", {.samples = 16, .steps = 3}},
+    {"16 samples, 8 steps", {.samples = 16, .steps = 8}},
+};
+
+}  // namespace
+
+Status reproduce_bent_fig7(const ReproduceContext& context, Report* report, std::string* text) {
+  const auto executor = make_executor(context.threads);
+  RunOptions options;
+  options.executor = executor.get();
+  double done = 0;
+  for (const std::string& scene : bent_scenes()) {
+    if (!context.step(scene, done++ / 4)) return {StatusCode::kCancelled, "stopped by the user"};
+    Rendering rendering;
+    if (Status s = load_bent_scene(scene, kSize, *executor, &rendering); !s.ok()) return s;
+    const DepthField field = rendering.gbuffer.field();
+    BentBuffers truth(kSize, kSize), fast(kSize, kSize);
+    const ReferenceSettings reference{
+        .falloff = bent_falloff(rendering), .rays = kRays, .every = kEvery, .interpolate = true};
+    Outputs outputs = truth.directions();
+    if (Status s = compute(field, reference, outputs, options); !s.ok()) return s;
+    report->add(scene, "normal itself", mean(angles(truth.normal, truth.bent, rendering)),
+                "degrees");
+    for (const Entry& e : kEntries) {
+      HemisphereSettings settings = e.settings;
+      settings.falloff = bent_falloff(rendering);
+      if (Status s = compute(field, settings, fast.directions(), options); !s.ok()) return s;
+      report->add(scene, e.name, mean(angles(fast.bent, truth.bent, rendering)), "degrees");
+    }
+    if (Status s = context.picture(
+            scene,
+            beside({{"ray-traced", vector_picture(truth.bent)},
+                    {kEntries[3].name, vector_picture(fast.bent)},
+                    {"difference, 8 times", eightfold(angles(fast.bent, truth.bent, rendering))}}));
+        !s.ok()) {
+      return s;
+    }
+  }
+  *text += fmt::format(
+      "Mean angle between bent normals of hemisphere sampling and those of {} rays against the "
+      "same "
+      "depth field, at every {}th pixel of {}x{} (the pictures interpolate between them); nothing "
+      "occludes beyond a "
+      "tenth of the scene. *Normal itself* is the angle that bent normals are bent by.\n",
+      kRays, kEvery, kSize, kSize);
+  return {};
+}
+
+}  // namespace obscura::support

@@ -10,7 +10,7 @@
 namespace obscura::support {
 namespace {
 
-constexpr int kSize = 1024, kRuns = 15;
+constexpr int kSize = 1024, kRuns = 7;
 
 double median(std::vector<double> v) {
   std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());

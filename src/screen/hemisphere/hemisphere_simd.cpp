@@ -112,7 +112,7 @@ HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine
   return hn::And(behind, inside);
 }
 
-template <bool kDirections>
+template <bool kUniform, bool kCosine>  // which directions are wanted
 void SumPixels(const Frame& f, int row, int width, const Sums& out) {
   const D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -168,9 +168,11 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
       const V weighted = hn::Mul(visible, cosine);
       open = hn::Add(open, visible);
       open_cosine = hn::Add(open_cosine, weighted);
-      if constexpr (kDirections) {
+      if constexpr (kUniform) {
         sum = {hn::MulAdd(visible, w.x, sum.x), hn::MulAdd(visible, w.y, sum.y),
                hn::MulAdd(visible, w.z, sum.z)};
+      }
+      if constexpr (kCosine) {
         sum_cosine = {hn::MulAdd(weighted, w.x, sum_cosine.x),
                       hn::MulAdd(weighted, w.y, sum_cosine.y),
                       hn::MulAdd(weighted, w.z, sum_cosine.z)};
@@ -180,7 +182,7 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
                      int means) HWY_ATTR {
       const V mean = hn::Mul(whole, by);
       if (to[0]) hn::StoreU(mean, d, to[0] + x);
-      if (!kDirections || !to[1]) return;
+      if (!to[1]) return;
       const V a = hn::Mul(mean, tile(means)), b = hn::Mul(mean, tile(means + 1));
       const V c = hn::Mul(mean, tile(means + 2));
       auto rest = [&](V total, V along_t, V along_b, V along_n) HWY_ATTR {
@@ -198,8 +200,13 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
 }
 
 void SumRow(const Frame& f, int row, int width, const Sums& sums) {
-  sums.uniform[1] || sums.cosine[1] ? SumPixels<true>(f, row, width, sums)
-                                    : SumPixels<false>(f, row, width, sums);
+  if (sums.cosine[1]) {
+    sums.uniform[1] ? SumPixels<true, true>(f, row, width, sums)
+                    : SumPixels<false, true>(f, row, width, sums);
+  } else {
+    sums.uniform[1] ? SumPixels<true, false>(f, row, width, sums)
+                    : SumPixels<false, false>(f, row, width, sums);
+  }
 }
 
 HWY_INLINE M IsSurface(V s) {

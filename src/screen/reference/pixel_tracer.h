@@ -38,8 +38,8 @@ class PixelTracer {
     const TraceScene* scene;
     const math::Rho* rho;
     const ReferenceSettings* settings;
-    bool cosine, uniform;  // the weightings that are needed
-    bool radiance;         // with `cosine`
+    bool cosine, uniform;   // the weightings that are needed
+    bool radiance = false;  // with `cosine`
   };
 
   // Traces at most kMaxPixels pixels with finite depth.

@@ -193,7 +193,7 @@ class VisibilityField {
   // Writes the mean visibility of an octant, in [0, 1], at each sample of the field's own grid.
   Status octant(int octant, GridView<float> visibility) const;
   // The same averaged over all octants: one scalar field without the geometry term.
-  Status scalar(GridView<float> visibility) const;
+  Status scalar(GridView<float> visibility, const VolumeRun& run = {}) const;
 
   // Ambient visibility in [0, 1] at points of the surface: the sum of V_s G_s over the chosen
   // octants (equation 4), divided by that of all eight with V = 1, so that an open point is 1 with

@@ -345,34 +345,47 @@ Status VisibilityField::octant(int octant, GridView<float> visibility) const {
   return {};
 }
 
-Status VisibilityField::scalar(GridView<float> visibility) const {
+Status VisibilityField::scalar(GridView<float> visibility, const VolumeRun& run) const {
   if (empty()) return invalid_input("the visibility field is empty; sweep it first");
-  std::vector<float> one, sum;
-  try {
-    one.resize(impl_->voxels());
-    sum.assign(impl_->voxels(), 0.0f);
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
+  const VisibilityFieldImpl& f = *impl_;
+  if (visibility.data == nullptr || visibility.size != f.size) {
+    return invalid_input(text("visibility must be a grid of ", f.size[0], "x", f.size[1], "x",
+                              f.size[2], " samples, as the field's own"));
   }
-  const int begin = impl_->shadow ? 7 : 0;
-  if (visibility.data == nullptr || visibility.size != impl_->size) {
-    return octant(begin, visibility);  // says what is wrong
-  }
-  for (int s = begin; s < 8; ++s) {
-    if (Status status = octant(s, {one.data(), impl_->size, impl_->spacing}); !status.ok()) {
-      return status;
+  std::unique_ptr<Executor> own;
+  if (!run.executor) own = make_executor();
+  Executor& executor = run.executor ? *run.executor : *own;
+  const int n = static_cast<int>(f.channels());
+  float weight[2][4 * kMaxDirections] = {};
+  for (int s = f.shadow ? static_cast<int>(kShadowOctant) : 0; s < 8; ++s) {
+    for (int i = 0; i < f.directions(); ++i) {
+      weight[s >> 2][(s & 3) * f.directions() + i] =
+          f.scheme.directions[i].weight * (f.shadow ? 1.0f : 0.125f);
     }
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i] / static_cast<float>(8 - begin);
   }
   const auto stride = visibility.strides();
-  std::size_t i = 0;
-  for (int z = 0; z < impl_->size[2]; ++z) {
-    for (int y = 0; y < impl_->size[1]; ++y) {
-      for (int x = 0; x < impl_->size[0]; ++x, ++i) {
-        visibility.data[x * stride[0] + y * stride[1] + z * stride[2]] = sum[i];
+  executor.parallel_for(f.size[2], [&](int z, int) {
+    std::size_t voxel = static_cast<std::size_t>(z) * f.size[0] * f.size[1];
+    for (int y = 0; y < f.size[1]; ++y) {
+      float* out = visibility.data + z * stride[2] + y * stride[1];
+      for (int x = 0; x < f.size[0]; ++x, ++voxel) {
+        float sum = 0;
+        for (int half = 0; half < 2; ++half) {
+          const std::size_t at = voxel * f.channels();
+          if (f.bytes[half]) {
+            const std::uint8_t* v = f.bytes[half].get() + at;
+            float bytes = 0;
+            for (int c = 0; c < n; ++c) bytes += weight[half][c] * static_cast<float>(v[c]);
+            sum += bytes * (1.0f / 255);
+          } else if (f.floats[half]) {
+            const float* v = f.floats[half].get() + at;
+            for (int c = 0; c < n; ++c) sum += weight[half][c] * v[c];
+          }
+        }
+        out[x * stride[0]] = std::min(sum, 1.0f);
       }
     }
-  }
+  });
   return {};
 }
 

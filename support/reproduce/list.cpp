@@ -1,5 +1,6 @@
 #include "support/reproduce/bent.h"
 #include "support/reproduce/reproduce.h"
+#include "support/reproduce/sweeps.h"
 
 namespace obscura::support {
 
@@ -11,6 +12,9 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_bent_fig6},
       {"bent-fig7", "Angles between screen-space and ray-traced bent normals (figure 7)",
        reproduce_bent_fig7},
+      {"sweep-table2",
+       "Fast occlusion sweeping, Table 2: time of the sweeps on five sizes of grid.",
+       reproduce_sweep_table2},
   };
   return list;
 }

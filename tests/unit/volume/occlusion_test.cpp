@@ -251,6 +251,20 @@ TEST(Occlusion, OctantsAddUp) {
   EXPECT_NEAR(light_at(field, p, upper), sum, 0.06);  // hardly tilted
 }
 
+TEST(Occlusion, ScalarIsTheMeanOfTheOctants) {
+  const Grid d = blobs({25, 18, 14});
+  for (VisibilityPrecision precision : {VisibilityPrecision::kU8, VisibilityPrecision::kF32}) {
+    const VisibilityField field = field_of(d, {.precision = precision});
+    Grid mean(field.size()), one(field.size()), sum(field.size());
+    ASSERT_TRUE(field.scalar(out_of(mean)).ok());
+    for (int s = 0; s < 8; ++s) {
+      ASSERT_TRUE(field.octant(s, out_of(one)).ok());
+      for (std::size_t i = 0; i < sum.v.size(); ++i) sum.v[i] += one.v[i] / 8;
+    }
+    for (std::size_t i = 0; i < sum.v.size(); ++i) ASSERT_NEAR(mean.v[i], sum.v[i], 1e-5);
+  }
+}
+
 TEST(Occlusion, FallsWhenAnOccluderIsAdded) {
   Grid d({40, 40, 40});
   d.fill([](double, double, double z) { return z - 8.2; });

@@ -1,0 +1,13 @@
+#ifndef OBSCURA_SUPPORT_REPRODUCE_SWEEPS_H_
+#define OBSCURA_SUPPORT_REPRODUCE_SWEEPS_H_
+
+#include "support/reproduce/reproduce.h"
+
+// Fast occlusion sweeping (Singh, Yuksel and House 2011).
+namespace obscura::support {
+
+Status reproduce_sweep_table2(const ReproduceContext& context, Report* report, std::string* text);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_REPRODUCE_SWEEPS_H_

@@ -160,8 +160,13 @@ Status read(const std::string& path, Mesh* mesh) {
   }
   result.parts = {{0, result.triangles.size(), false}};
   result.scene_size = bounds_of(result).longest_side();
-  if (!(result.scene_size > 0 && std::isfinite(float(result.scene_size)))) {
-    return invalid_input(fmt::format("{}: all triangles lie in one point, or too far apart", path));
+  if (!(result.scene_size > 0)) {
+    return invalid_input(fmt::format("{}: all triangles lie in one point", path));
+  }
+  const Bounds bounds = bounds_of(result);
+  if (std::max(length(bounds.min), length(bounds.max)) > 1e11) {
+    return invalid_input(fmt::format("{}: reaches {:g} from the origin; it must be within 1e11",
+                                     path, std::max(length(bounds.min), length(bounds.max))));
   }
   *mesh = std::move(result);
   return {};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <numbers>
 
 #include "support/meshes/load_mesh.h"
@@ -57,8 +58,10 @@ ViewSpec framed_view(const Bounds& bounds, const ViewOptions& options) {
   return v;
 }
 
-Status load_mesh(const std::string& path, const MeshOptions& options, Executor& executor,
-                 Rendering* rendering) {
+namespace {
+
+Status load_and_render(const std::string& path, const MeshOptions& options, Executor& executor,
+                       Rendering* rendering) {
   Mesh mesh;
   if (Status s = load_mesh(path, &mesh); !s.ok()) return s;
   const Bounds bounds = bounds_of(mesh);
@@ -74,6 +77,17 @@ Status load_mesh(const std::string& path, const MeshOptions& options, Executor& 
   if (!s.ok()) return {s.code(), fmt::format("{}: {}", path, s.message())};
   *rendering = {std::move(scene), view, std::move(gbuffer)};
   return {};
+}
+
+}  // namespace
+
+Status load_mesh(const std::string& path, const MeshOptions& options, Executor& executor,
+                 Rendering* rendering) {
+  try {
+    return load_and_render(path, options, executor, rendering);
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, path + ": out of memory"};
+  }
 }
 
 }  // namespace obscura::support

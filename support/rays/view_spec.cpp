@@ -7,6 +7,9 @@ namespace {
 
 std::string to_text(Vec3 v) { return fmt::format("{:g},{:g},{:g}", v.x, v.y, v.z); }
 
+// World units; Embree refuses rays near the square root of the largest float.
+constexpr double kFarthest = 1e12;
+
 }  // namespace
 
 Camera ViewSpec::camera() const {
@@ -36,6 +39,12 @@ Status validate(const ViewSpec& v) {
         fmt::format("size with guard band is {}x{}; each side must be in [1, 65535]",
                     v.full_width(), v.full_height()));
   }
+  // 4 GiB of depth and normals.
+  if (double(v.full_width()) * v.full_height() > double(1 << 28)) {
+    return invalid_argument(
+        fmt::format("size with guard band is {}x{}; it must be at most 2^28 pixels", v.full_width(),
+                    v.full_height()));
+  }
   if (!is_finite(v.eye))
     return invalid_argument("eye is " + to_text(v.eye) + "; it must be finite");
   if (!is_finite(v.look_at)) {
@@ -43,6 +52,10 @@ Status validate(const ViewSpec& v) {
   }
   if (!is_finite(v.up) || length(v.up) == 0) {
     return invalid_argument("up is " + to_text(v.up) + "; it must be finite and not zero");
+  }
+  if (length(v.eye) > kFarthest || length(v.look_at) > kFarthest) {
+    return invalid_argument("eye is " + to_text(v.eye) + " and look-at " + to_text(v.look_at) +
+                            "; both must be within 1e12 of the origin");
   }
   const Vec3 sight = v.look_at - v.eye;
   if (!(length(sight) > 0)) {
@@ -53,13 +66,14 @@ Status validate(const ViewSpec& v) {
                             to_text(v.look_at) + " is along up " + to_text(v.up) +
                             "; give another up");
   }
-  if (!v.orthographic && !(v.fov_y > 1e-4 && v.fov_y < std::numbers::pi - 1e-4)) {
-    return invalid_argument(fmt::format("fov-y is {:g} degrees; it must be in (0, 180)",
-                                        v.fov_y * 180 / std::numbers::pi));
-  }
-  if (v.orthographic && !(v.ortho_height > 0 && std::isfinite(v.ortho_height))) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  if (!v.orthographic && !(v.fov_y > 0.0099 * kDegree && v.fov_y < 179.91 * kDegree)) {
     return invalid_argument(
-        fmt::format("ortho-height is {:g}; it must be in (0, inf)", v.ortho_height));
+        fmt::format("fov-y is {:g} degrees; it must be in [0.01, 179.9]", v.fov_y / kDegree));
+  }
+  if (v.orthographic && !(v.ortho_height > 0 && v.ortho_height <= kFarthest)) {
+    return invalid_argument(
+        fmt::format("ortho-height is {:g}; it must be in (0, 1e12]", v.ortho_height));
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "support/scenes/scene.h"
 
@@ -67,15 +68,8 @@ Status check_keys(const std::string& spec, const SceneKind& kind,
   return {};
 }
 
-}  // namespace
-
-bool is_scene(const std::string& spec) { return spec.starts_with(kPrefix); }
-
-Status load_scene(const std::string& spec, const ViewOptions& given, Executor& executor,
-                  Rendering* rendering) {
-  if (!is_scene(spec)) {
-    return invalid_argument(fmt::format("\"{}\" is not a scene; write scene:NAME", spec));
-  }
+Status build_and_render(const std::string& spec, const ViewOptions& given, Executor& executor,
+                        Rendering* rendering) {
   auto named = [&](const Status& s) {
     return s.ok() ? s : Status(s.code(), fmt::format("{}: {}", spec, s.message()));
   };
@@ -102,6 +96,22 @@ Status load_scene(const std::string& spec, const ViewOptions& given, Executor& e
   if (!s.ok()) return named(s);
   *rendering = {std::move(rays), scene.view, std::move(gbuffer)};
   return {};
+}
+
+}  // namespace
+
+bool is_scene(const std::string& spec) { return spec.starts_with(kPrefix); }
+
+Status load_scene(const std::string& spec, const ViewOptions& options, Executor& executor,
+                  Rendering* rendering) {
+  if (!is_scene(spec)) {
+    return invalid_argument(fmt::format("\"{}\" is not a scene; write scene:NAME", spec));
+  }
+  try {
+    return build_and_render(spec, options, executor, rendering);
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, spec + ": out of memory"};
+  }
 }
 
 Status load_scene(const std::string& spec, DepthInput* input) {

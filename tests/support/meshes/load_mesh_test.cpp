@@ -134,6 +134,7 @@ TEST_F(LoadMesh, HostileFilesAreRefusedInOneSentence) {
   refuse(write("inf.ply", ply("0 0 0\n1 0 0\n0 inf 0\n", 3, "3 0 1 2\n", 1)), "must be finite");
   refuse(write("huge.ply", ply("0 0 0\n1e30 0 0\n0 1e39 0\n", 3, "3 0 1 2\n", 1)),
          "must be finite");
+  refuse(write("far.ply", ply("0 0 0\n1e30 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), "within 1e11");
   refuse(write("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "in one point");
   refuse(write("index.ply", ply(triangle, 3, "3 0 1 7\n", 1)), "");
   refuse(write("negative.ply", ply(triangle, 3, "3 0 1 -2\n", 1)), "");

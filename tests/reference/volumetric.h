@@ -10,6 +10,7 @@
 #include "core/reflection_noise.h"
 #include "obscura/line.h"
 #include "obscura/patterns.h"
+#include "obscura/point.h"
 #include "view/geometry.h"
 
 // Volumetric obscurance once more, pixel by pixel in double precision and along another way: the
@@ -119,6 +120,89 @@ class Line {
   const view::Geometry& g;
   const LineSettings s;
   const std::span<const DiskSample> pattern;
+  const ReflectionNoise noise;
+};
+
+// Point sampling with a fixed pattern in the ball, along the way of the definition: the sample at
+// the texel's own ray and at its height above the tangent plane is tested by depth.
+class Point {
+ public:
+  Point(const view::Geometry& geometry, const PointSettings& settings,
+        std::span<const BallSample> samples)
+      : g(geometry), s(settings), pattern(samples), noise(settings.seed, true) {}
+
+  // Of visible pixel (px, py).
+  double visibility(int px, int py) const {
+    const int x = px + g.guard_band.left, y = py + g.guard_band.top;
+    const double z = g.depth(x, y), radius = s.falloff.radius;
+    if (!std::isfinite(z)) return 1;
+    const Camera& c = g.camera;
+    const bool quadratic = s.falloff.kind == FalloffKind::kQuadratic;
+    auto ray = [&](long long i, long long j, double* a, double* b) {
+      *a = c.orthographic ? 0 : (i + 0.5 - c.center_u) * c.scale_x;
+      *b = c.orthographic ? 0 : (c.center_v - j - 0.5) * c.scale_y;
+    };
+    double a, b, nx = 0, ny = 0, nz = 0;
+    ray(x, y, &a, &b);
+    if (g.has_normals) {
+      nx = g.normal_x(x, y);
+      ny = g.normal_y(x, y);
+      nz = g.normal_z(x, y);
+      const double facing = nx * a + ny * b - nz;
+      if (facing > -1e-4) {
+        const double k = (facing + 1e-4) / (1 + a * a + b * b);
+        nx -= k * a;
+        ny -= k * b;
+        nz += k;
+      }
+    }
+    const float distance = c.orthographic ? 1.0f : static_cast<float>(z);
+    const float reach_x = s.falloff.radius / c.scale_x / distance;
+    const float reach_y = s.falloff.radius / c.scale_y / distance;
+    const int at =
+        py % ReflectionNoise::kSize * ReflectionNoise::kSize + px % ReflectionNoise::kSize;
+    double weights = 0, free = 0;
+    for (const BallSample& p : pattern) {
+      double sx = p.x, sy = p.y, sz = p.z;
+      auto reflect = [&](double k, double vx, double vy, double vz) {
+        sx -= 2 * k * vx;
+        sy -= 2 * k * vy;
+        sz -= 2 * k * vz;
+      };
+      if (s.rotate) {
+        const double vx = noise.x()[at], vy = noise.y()[at], vz = noise.z()[at];
+        reflect(sx * vx + sy * vy + sz * vz, vx, vy, vz);
+      }
+      if (g.has_normals) reflect(std::min(0.0, sx * nx + sy * ny + sz * nz), nx, ny, nz);
+      const long long i = std::clamp(x + nearest(reach_x * sx), 0LL, g.width - 1LL);
+      const long long j = std::clamp(y - nearest(reach_y * sy), 0LL, g.height - 1LL);
+      const double depth = g.depth(int(i), int(j));
+      double sample = z - sz * radius, ta, tb;  // its depth
+      ray(i, j, &ta, &tb);
+      if (g.has_normals) {
+        // n.(P - P0) = h with P = (ox, oy, 0) + t (ta, tb, -1), P0 = z (a, b, -1).
+        const double height = (sx * nx + sy * ny + sz * nz) * radius + 1e-6 * z;
+        const double ox = c.orthographic ? (i - x) * double(c.scale_x) : 0;
+        const double oy = c.orthographic ? (y - j) * double(c.scale_y) : 0;
+        const double slope = nx * ta + ny * tb - nz;
+        sample = (height + z * (nx * a + ny * b - nz) - nx * ox - ny * oy) / slope;
+      }
+      bool inside = sample > depth;
+      if (s.occluder.kind == OccluderKind::kThickness) {
+        inside =
+            inside && sample <= depth + s.occluder.thickness / std::sqrt(1 + ta * ta + tb * tb);
+      }
+      const double weight = quadratic ? p.weight_quadratic : p.weight_constant;
+      weights += weight;
+      free += inside ? 0 : weight;
+    }
+    return free / weights;
+  }
+
+ private:
+  const view::Geometry& g;
+  const PointSettings s;
+  const std::span<const BallSample> pattern;
   const ReflectionNoise noise;
 };
 

@@ -1,11 +1,16 @@
 #include "support/reproduce/bent.h"
 #include "support/reproduce/reproduce.h"
 #include "support/reproduce/sweeps.h"
+#include "support/reproduce/volumetric.h"
 
 namespace obscura::support {
 
 const std::vector<Reproduction>& reproductions() {
   static const std::vector<Reproduction> list = {
+      {"vo-table1", "Times and errors of lines, points and areas, single and double radius",
+       reproduce_vo_table1},
+      {"vo-flicker", "Whether lines flicker less than points", reproduce_vo_flicker},
+      {"vo-patterns", "Integration errors of the sample patterns", reproduce_vo_patterns},
       {"bent-overhead", "What bent normals and cones cost beside visibility (section 5)",
        reproduce_bent_overhead},
       {"bent-fig6", "Light through AO, bent normals and cones against the truth (figure 6)",

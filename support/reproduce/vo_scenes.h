@@ -1,0 +1,34 @@
+#ifndef OBSCURA_SUPPORT_REPRODUCE_VO_SCENES_H_
+#define OBSCURA_SUPPORT_REPRODUCE_VO_SCENES_H_
+
+#include <string>
+#include <vector>
+
+#include "obscura/obscura.h"
+#include "support/depth_input.h"
+
+namespace obscura::support {
+
+// A variant of volumetric obscurance under test.
+struct VoVariant {
+  std::string name;
+  MethodSettings settings;
+};
+
+// 5 and 9 lines, 12 and 33 points, 1 and 9 areas of one radius, reflected at random, not blurred.
+std::vector<VoVariant> vo_variants(float radius);
+
+// Visibility of one frame; `seed` replaces the settings' own.
+Status vo_visibility(const DepthInput& input, MethodSettings settings, std::uint32_t seed,
+                     Executor* executor, std::vector<float>* visibility);
+
+// The integral that lines and points both estimate: the mean of many reflections of 32 lines.
+Status vo_converged(const DepthInput& input, float radius, int patterns, Executor* executor,
+                    std::vector<float>* visibility);
+
+// Mean absolute difference in per cent over pixels with a surface.
+double vo_error(const DepthInput& input, const std::vector<float>& a, const std::vector<float>& b);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_REPRODUCE_VO_SCENES_H_

@@ -27,39 +27,50 @@ struct HeightOf {
   float background;
 };
 
+struct Greater {
+  float operator()(float a, float b) const { return std::max(a, b); }
+};
+struct Less {
+  float operator()(float a, float b) const { return std::min(a, b); }
+};
+
 }  // namespace
 
-float* DepthScene::level(AlignedImage<float>* pyramid, int l) const {
-  return pyramid->data() + (std::size_t{1} << (scene_.log_x + scene_.log_y - 2 * l));
+float* DepthScene::level(int pyramid, int l) {
+  return pyramids_[pyramid].data() + (std::size_t{1} << (scene_.log_x + scene_.log_y - 2 * l));
 }
 
-void DepthScene::size_pyramid() {
+void DepthScene::size_pyramids(int count) {
   auto log_of = [](int cells) {
     return std::max(1, static_cast<int>(std::bit_width(static_cast<unsigned>(cells - 1))));
   };
   scene_.log_x = log_of(std::max(1, scene_.cells_x));
   scene_.log_y = log_of(std::max(1, scene_.cells_y));
   scene_.top_level = std::min(scene_.log_x, scene_.log_y);
+  const int log_size = scene_.log_x + scene_.log_y;
+  pyramids_.resize(count);
+  for (AlignedImage<float>& pyramid : pyramids_) {
+    // Level 1 ends where level 0 would begin.
+    pyramid.resize(1 << std::min(log_size - 1, 16), 1 << std::max(0, log_size - 17));
+    pyramid.data()[0] = 0;  // stands in for blocks that are not asked about
+  }
 }
 
 // Makes levels 2 and above from level 1, which is filled for whole blocks of cells.
-void DepthScene::build_upper_levels(Executor& executor) {
+template <class Choose>
+void DepthScene::build_upper_levels(int pyramid, Choose choose, Executor& executor) {
   for (int l = 2; l <= scene_.top_level; ++l) {
     const int width = 1 << (scene_.log_x - l), height = 1 << (scene_.log_y - l);
-    auto reduce = [&](AlignedImage<float>* pyramid, auto&& choose) {
-      const float* finer = level(pyramid, l - 1);
-      float* coarse = level(pyramid, l);
-      executor.parallel_for(height, [&](int y, int) {
-        const float* a = finer + std::size_t{4} * y * width;
-        const float* b = a + 2 * width;
-        float* out = coarse + std::size_t{1} * y * width;
-        for (int x = 0; x < width; ++x) {
-          out[x] = choose(choose(a[2 * x], a[2 * x + 1]), choose(b[2 * x], b[2 * x + 1]));
-        }
-      });
-    };
-    reduce(&highest_, [](float a, float b) { return std::max(a, b); });
-    if (scene_.boxes) reduce(&lowest_, [](float a, float b) { return std::min(a, b); });
+    const float* finer = level(pyramid, l - 1);
+    float* coarse = level(pyramid, l);
+    executor.parallel_for(height, [&](int y, int) {
+      const float* a = finer + std::size_t{4} * y * width;
+      const float* b = a + 2 * width;
+      float* out = coarse + std::size_t{1} * y * width;
+      for (int x = 0; x < width; ++x) {
+        out[x] = choose(choose(a[2 * x], a[2 * x + 1]), choose(b[2 * x], b[2 * x + 1]));
+      }
+    });
   }
 }
 
@@ -76,7 +87,7 @@ void DepthScene::build_surface(const view::Geometry& g, Executor& executor) {
 
   // Level 1: two by two cells, three by three texel centres.
   const int width = 1 << (scene_.log_x - 1), height = 1 << (scene_.log_y - 1);
-  float* out = level(&highest_, 1);
+  float* out = level(0, 1);
   executor.parallel_for(height, [&](int y, int) {
     float* row = out + std::size_t{1} * y * width;
     std::fill_n(row, width, -kInf);
@@ -89,6 +100,8 @@ void DepthScene::build_surface(const view::Geometry& g, Executor& executor) {
       }
     }
   });
+  build_upper_levels(0, Greater(), executor);
+  scene_.highest = pyramids_[0].data();
   scene_.max_height = g.max_depth > 0 ? height_of(g.min_depth) : -kInf;
 }
 
@@ -117,32 +130,40 @@ void DepthScene::build_boxes(const view::Geometry& g, const Occluder& occluder,
     }
   }
 
+  size_pyramids(2 * static_cast<int>(scene_.layers.size()));
+  scene_.max_height = -kInf;
+  for (int i = 0; i < static_cast<int>(scene_.layers.size()); ++i) build_bounds(g, i, executor);
+}
+
+// The pyramids of one layer, whose level 1 holds blocks of two by two texels.
+void DepthScene::build_bounds(const view::Geometry& g, int index, Executor& executor) {
+  MatterLayer& layer = scene_.layers[index];
   const HeightOf height_of(g);
   const int width = 1 << (scene_.log_x - 1), height = 1 << (scene_.log_y - 1);
-  float* highest = level(&highest_, 1);
-  float* lowest = level(&lowest_, 1);
+  float* highest = level(2 * index, 1);
+  float* lowest = level(2 * index + 1, 1);
   executor.parallel_for(height, [&](int y, int) {
     float* hi = highest + std::size_t{1} * y * width;
     float* lo = lowest + std::size_t{1} * y * width;
     std::fill_n(hi, width, -kInf);
     std::fill_n(lo, width, kInf);
-    for (const MatterLayer& layer : scene_.layers) {
-      for (int j = 2 * y; j < std::min(2 * y + 2, g.height); ++j) {
-        const float* front = layer.front + (j - scene_.middle) * scene_.stride;
-        const float* back = layer.back + (j - scene_.middle) * scene_.stride;
-        for (int i = 0; i < g.width; ++i) {
-          if (front[i] == kInf) continue;
-          hi[i / 2] = std::max(hi[i / 2], height_of(front[i]));
-          lo[i / 2] = std::min(
-              lo[i / 2], back[i] == kInf && height_of.orthographic ? -kInf : height_of(back[i]));
-        }
+    for (int j = 2 * y; j < std::min(2 * y + 2, g.height); ++j) {
+      const float* front = layer.front + (j - scene_.middle) * scene_.stride;
+      const float* back = layer.back + (j - scene_.middle) * scene_.stride;
+      for (int i = 0; i < g.width; ++i) {
+        if (front[i] == kInf) continue;
+        const bool endless = back[i] == kInf && height_of.orthographic;
+        hi[i / 2] = std::max(hi[i / 2], height_of(front[i]));
+        lo[i / 2] = std::min(lo[i / 2], endless ? -kInf : height_of(back[i]));
       }
     }
   });
-  scene_.max_height = kInf;
-  if (scene_.top_level >= 1) {
-    scene_.max_height = *std::max_element(highest, highest + std::size_t{1} * width * height);
-  }
+  const std::size_t blocks = std::size_t{1} * width * height;
+  scene_.max_height = std::max(scene_.max_height, *std::max_element(highest, highest + blocks));
+  build_upper_levels(2 * index, Greater(), executor);
+  build_upper_levels(2 * index + 1, Less(), executor);
+  layer.highest = pyramids_[2 * index].data();
+  layer.lowest = pyramids_[2 * index + 1].data();
 }
 
 void DepthScene::build(const view::Geometry& g, const Occluder& occluder, Executor& executor) {
@@ -153,23 +174,12 @@ void DepthScene::build(const view::Geometry& g, const Occluder& occluder, Execut
   scene_.cells_x = scene_.boxes ? g.width : g.width - 1;
   scene_.cells_y = scene_.boxes ? g.height : g.height - 1;
   scene_.middle = g.height / 2;
-  size_pyramid();
-  const int log_size = scene_.log_x + scene_.log_y;
-  // Level 1 ends where level 0 would begin.
-  auto resize = [&](AlignedImage<float>* pyramid) {
-    pyramid->resize(1 << std::min(log_size - 1, 16), 1 << std::max(0, log_size - 17));
-    pyramid->data()[0] = 0;  // stands in for blocks that are not asked about
-  };
-  resize(&highest_);
   if (scene_.boxes) {
-    resize(&lowest_);
     build_boxes(g, occluder, executor);
   } else {
+    size_pyramids(1);
     build_surface(g, executor);
   }
-  build_upper_levels(executor);
-  scene_.highest = highest_.data();
-  scene_.lowest = lowest_.data();
 }
 
 }  // namespace obscura

@@ -1,6 +1,8 @@
 #ifndef OBSCURA_SRC_SCREEN_REFERENCE_DEPTH_SCENE_H_
 #define OBSCURA_SRC_SCREEN_REFERENCE_DEPTH_SCENE_H_
 
+#include <vector>
+
 #include "core/aligned_image.h"
 #include "obscura/occluder.h"
 #include "screen/reference/rays.h"
@@ -22,15 +24,17 @@ class DepthScene {
  private:
   void build_surface(const view::Geometry& geometry, Executor& executor);
   void build_boxes(const view::Geometry& geometry, const Occluder& occluder, Executor& executor);
-  void size_pyramid();
-  void build_upper_levels(Executor& executor);
-  float* level(AlignedImage<float>* pyramid, int l) const;
+  void size_pyramids(int count);
+  void build_bounds(const view::Geometry& geometry, int layer, Executor& executor);
+  template <class Choose>
+  void build_upper_levels(int pyramid, Choose choose, Executor& executor);
+  float* level(int pyramid, int l);
 
   TraceScene scene_;
   AlignedImage<float> heights_;  // surface
   AlignedImage<float> back_;     // thickness
-  AlignedImage<float> highest_;  // one row: see TraceScene
-  AlignedImage<float> lowest_;
+  // Pyramids, laid out as TraceScene says: the surface's, or two for each layer of matter.
+  std::vector<AlignedImage<float>> pyramids_;
 };
 
 }  // namespace obscura

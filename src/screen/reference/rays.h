@@ -16,10 +16,13 @@
 // matters, close to it.
 namespace obscura {
 
-// Nearest-texel matter from `front` to `back`, linear depths; +inf: none.
+// Nearest-texel matter from `front` to `back`, linear depths; +inf: none. Images are addressed from
+// their middle row. The pyramids hold the greatest and least heights of the layer's matter.
 struct MatterLayer {
   const float* front = nullptr;
   const float* back = nullptr;
+  const float* highest = nullptr;
+  const float* lowest = nullptr;
 };
 
 struct TraceScene {
@@ -32,13 +35,12 @@ struct TraceScene {
   int middle = 0;
   std::ptrdiff_t stride = 0;
   const float* heights = nullptr;     // middle row; surface only
-  std::vector<MatterLayer> layers{};  // middle rows; boxes only
+  std::vector<MatterLayer> layers{};  // boxes only
 
-  // Of each block of 2^level cells a side, from level 1 to `top_level`: the greatest height of
-  // anything in it and, of boxes, the least. Level l is at 2^(log_x + log_y - 2 l), its rows
-  // 2^(log_x - l) apart.
+  // Of each block of 2^level cells a side, from level 1 to `top_level`: the greatest height of the
+  // surface in it (matter has a pyramid for each layer, as what is empty between layers would not
+  // show in one for all). Level l is at 2^(log_x + log_y - 2 l), its rows 2^(log_x - l) apart.
   const float* highest = nullptr;
-  const float* lowest = nullptr;
   int log_x = 0, log_y = 0, top_level = 0;
   float max_height = 0;
 

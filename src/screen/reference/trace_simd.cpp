@@ -128,11 +128,15 @@ HWY_INLINE M Passes(const TraceScene& scene, const Lanes& ray, const Segment& c,
                            hn::Add(hn::Shl(c.iy, hn::Sub(log_x, ray.level)), c.ix));
   // Single cells are not in the pyramid.
   const VI at = hn::IfThenElseZero(hn::RebindMask(di, active), block);
-  const V highest = hn::Sub(Gather(scene.highest, at), ray.reference);
-  M passes = hn::Ge(hn::Min(c.h0, c.h1), highest);
-  if constexpr (kBoxes) {
-    const V lowest = hn::Sub(Gather(scene.lowest, at), ray.reference);
-    passes = hn::Or(passes, hn::Le(hn::Max(c.h0, c.h1), lowest));
+  const V low = hn::Min(c.h0, c.h1), high = hn::Max(c.h0, c.h1);
+  auto over = [&](const float* highest)
+                  HWY_ATTR { return hn::Ge(low, hn::Sub(Gather(highest, at), ray.reference)); };
+  if constexpr (!kBoxes) return over(scene.highest);
+  M passes = active;
+  for (const MatterLayer& layer : scene.layers) {
+    const M under = hn::Le(high, hn::Sub(Gather(layer.lowest, at), ray.reference));
+    passes = hn::And(passes, hn::Or(under, over(layer.highest)));
+    if (hn::AllFalse(D(), passes)) break;
   }
   return passes;
 }

@@ -1,7 +1,9 @@
 #ifndef OBSCURA_HEMISPHERE_H_
 #define OBSCURA_HEMISPHERE_H_
 
+#include <array>
 #include <cstdint>
+#include <functional>
 
 #include "obscura/cone.h"
 #include "obscura/falloff.h"
@@ -24,6 +26,11 @@ struct HemisphereSettings {
   RayWeighting weighting = RayWeighting::kCosine;  // of visibility; the paper's: uniform
   ConeEstimate cone = ConeEstimate::kExact;
   std::uint32_t seed = 1;
+  // C++ only: RGB radiance from a unit direction in eye space. Each direction then gathers its own
+  // light into Outputs::radiance: screen-space directional occlusion (Ritschel, Grosch, Seidel
+  // 2009). Called once per estimator, at the directions of a table; 1/samples of the hemisphere is
+  // what one sample stands for, so light that is blurred by as much gives the least noise.
+  std::function<std::array<float, 3>(const std::array<float, 3>&)> radiance{};
 };
 template <FieldsOf<HemisphereSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {

@@ -27,8 +27,8 @@ struct Outputs {
   // The unit normals that a method works with, eye space: those given, or reconstructed from depth.
   // Any Estimator gives them.
   VectorView<float> normal{};
-  // Ray-traced reference: the light that a white diffuse surface reflects, 1/pi integral of V L
-  // (n.w) with L from ReferenceSettings::radiance. 0 on the background.
+  // Ray-traced reference and hemisphere: the light that a white diffuse surface reflects, 1/pi
+  // integral of V L (n.w) with L from the `radiance` of the settings. 0 on the background.
   VectorView<float> radiance{};
   // Reference tracers: estimated standard error of visibility.
   ImageView<float> standard_error{};

@@ -9,6 +9,7 @@ namespace obscura::support {
 Status reproduce_bent_overhead(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_bent_fig6(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_bent_fig7(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_bent_fig8(const ReproduceContext& context, Report* report, std::string* text);
 
 }  // namespace obscura::support
 

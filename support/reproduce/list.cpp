@@ -17,6 +17,8 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_bent_fig6},
       {"bent-fig7", "Angles between screen-space and ray-traced bent normals (figure 7)",
        reproduce_bent_fig7},
+      {"bent-fig8", "Light through cones against directional occlusion at equal time (figure 8)",
+       reproduce_bent_fig8},
       {"sweep-table2",
        "Fast occlusion sweeping, Table 2: time of the sweeps on five sizes of grid.",
        reproduce_sweep_table2},

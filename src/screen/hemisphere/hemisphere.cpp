@@ -96,6 +96,7 @@ class HemisphereMethod final : public Method {
     frame_.tests = settings.steps + 1;
     frame_.interleave = settings.interleave;
     set_pattern(settings, &frame_);
+    if (settings.radiance) set_light();
     sums_.resize(width, height);
     if (settings.blur && settings.interleave > 1) {
       rows_.resize(width, height);
@@ -107,8 +108,11 @@ class HemisphereMethod final : public Method {
 
   view::Needs needs() const override { return {.normals = true}; }
   OutputKinds output_kinds() const override {
-    return {
-        .bent_normal = true, .cone_angle = true, .uniform_integral = true, .cosine_integral = true};
+    return {.bent_normal = true,
+            .cone_angle = true,
+            .uniform_integral = true,
+            .cosine_integral = true,
+            .radiance = static_cast<bool>(settings_.radiance)};
   }
 
   Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
@@ -117,7 +121,7 @@ class HemisphereMethod final : public Method {
     const bool directions =
         !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty();
     const bool uniform_visibility = settings_.weighting == RayWeighting::kUniform;
-    // The two kinds of weights one after the other: they share their memory, and few want both.
+    // The kinds of sums one after the other: they share their memory, and few want several.
     Outputs left = o;
     if (directions || uniform_visibility) {
       Outputs part;
@@ -125,18 +129,46 @@ class HemisphereMethod final : public Method {
       part.cone_angle = o.cone_angle;
       part.uniform_integral = o.uniform_integral;
       if (uniform_visibility) std::swap(part.visibility, left.visibility);
-      if (Status s = pass(g, part, false, directions, context); !s.ok()) return s;
+      if (Status s = pass(g, part, kUniform, directions, context); !s.ok()) return s;
     }
     if (!left.visibility.empty() || !o.cosine_integral.empty()) {
       Outputs part;
       part.visibility = left.visibility;
       part.cosine_integral = o.cosine_integral;
-      return pass(g, part, true, !o.cosine_integral.empty(), context);
+      if (Status s = pass(g, part, kCosine, !o.cosine_integral.empty(), context); !s.ok()) return s;
     }
-    return {};
+    if (o.radiance.empty()) return {};
+    Outputs part;
+    part.radiance = o.radiance;
+    return pass(g, part, kRadiance, true, context);
   }
 
  private:
+  enum Kind { kUniform, kCosine, kRadiance };
+
+  void set_light() {
+    constexpr int kCells = 32, kSide = kCells + 1;
+    for (auto& plane : light_) plane.resize(std::size_t{6} * kSide * kSide);
+    std::size_t at = 0;
+    for (int face = 0; face < 6; ++face) {
+      for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i, ++at) {
+          const int axis = face / 2;
+          double w[3];
+          w[axis] = face % 2 == 0 ? 1 : -1;
+          w[(axis + 1) % 3] = 2.0 * i / kCells - 1;
+          w[(axis + 2) % 3] = 2.0 * j / kCells - 1;
+          const double scale = 1 / std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+          const auto rgb =
+              settings_.radiance({float(w[0] * scale), float(w[1] * scale), float(w[2] * scale)});
+          for (int c = 0; c < 3; ++c) light_[c][at] = rgb[c];
+        }
+      }
+    }
+    for (int c = 0; c < 3; ++c) frame_.light[c] = light_[c].data();
+    frame_.light_cells = kCells;
+  }
+
   void set_view(const view::Geometry& g) {
     frame_.depth = g.depth.data();
     frame_.normal[0] = g.normal_x.data();
@@ -162,8 +194,8 @@ class HemisphereMethod final : public Method {
     });
   }
 
-  // Sums with one kind of weights, their blur, and the results that come from them.
-  Status pass(const view::Geometry& g, const Outputs& o, bool cosine, bool directions,
+  // Sums of one kind, their blur, and the results that come from them.
+  Status pass(const view::Geometry& g, const Outputs& o, Kind kind, bool directions,
               const RunContext& context) {
     const int width = g.visible_width(), height = g.visible_height();
     const int channels = directions ? kChannels : 1;
@@ -171,16 +203,16 @@ class HemisphereMethod final : public Method {
     for_rows(height, context, [&](int y) {
       if (progress.cancelled()) return;
       hemisphere::Sums sums;
-      float** to = cosine ? sums.cosine : sums.uniform;
-      for (int c = 0; c < channels; ++c) to[c] = sums_.row(c, y);
+      float** to = kind == kUniform ? sums.uniform : kind == kCosine ? sums.cosine : sums.radiance;
+      for (int c = 0; c < (kind == kRadiance ? 3 : channels); ++c) to[c] = sums_.row(c, y);
       hemisphere::sum_row(frame_, y, width, sums);
       // Whole vectors were written; what the blur meets beyond the row counts nothing, if finite.
-      for (int c = 0; c < channels; ++c) std::fill_n(to[c] + width, kMargin, 0.0f);
+      for (int c = 0; c < channels; ++c) std::fill_n(sums_.row(c, y) + width, kMargin, 0.0f);
       progress.advance();
     });
     if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
     if (settings_.blur && settings_.interleave > 1) blur(g, channels, context);
-    for_rows(height, context, [&](int y) { finish(g, o, cosine, directions, y); });
+    for_rows(height, context, [&](int y) { finish(g, o, kind, directions, y); });
     return {};
   }
 
@@ -227,8 +259,17 @@ class HemisphereMethod final : public Method {
     });
   }
 
-  void finish(const view::Geometry& g, const Outputs& o, bool cosine, bool directions, int y) {
+  void finish(const view::Geometry& g, const Outputs& o, Kind kind, bool directions, int y) {
     const int width = g.visible_width();
+    const bool cosine = kind == kCosine;
+    if (kind == kRadiance) {
+      const ImageView<float>* to[] = {&o.radiance.x, &o.radiance.y, &o.radiance.z};
+      for (int c = 0; c < 3; ++c) {
+        const float* from = sums_.row(c, y);
+        for (int x = 0; x < width; ++x) (*to[c])(x, y) = from[x];
+      }
+      return;
+    }
     // Results replace the sums, row by row, in blocks that leave room for what is still to be read.
     constexpr int kBlock = 256;
     float block[8][kBlock];
@@ -266,6 +307,7 @@ class HemisphereMethod final : public Method {
   hemisphere::Frame frame_;
   Channels sums_, rows_, normals_;
   AlignedImage<float> surface_;
+  std::vector<float> light_[3];
 };
 
 }  // namespace

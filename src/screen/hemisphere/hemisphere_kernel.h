@@ -45,14 +45,19 @@ struct Frame {
   int interleave = 1;
   float cosine[kMaxSamples] = {}, sine[kMaxSamples] = {};  // azimuths
   float offset[kMaxSamples] = {};                          // of the tests, in steps
+  // Light by direction in eye space, at the vertices of a cube's faces: faces along x, -x, y, -y,
+  // z, -z, whose rows run along the next axis and columns along the one after; R, G, B apart.
+  const float* light[3] = {};
+  int light_cells = 0;
   float tile[kTileValues][kMaxInterleave][kTileRow] = {};
 };
 
-// Sums of one visible row. `uniform` and `cosine` are kChannels rows each, null where not wanted;
-// a null x channel leaves out directions. Whole vectors are written past the end.
+// Sums of one visible row, of one kind at a time. `uniform` and `cosine` are kChannels rows each; a
+// null x channel leaves out directions. Whole vectors are written past the end.
 struct Sums {
   float* uniform[kChannels] = {};
   float* cosine[kChannels] = {};
+  float* radiance[3] = {};  // sum V L (n.w) / sum (n.w); alone
 };
 void sum_row(const Frame& frame, int row, int width, const Sums& sums);
 

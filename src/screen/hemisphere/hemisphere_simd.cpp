@@ -112,7 +112,33 @@ HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine
   return hn::And(behind, inside);
 }
 
-template <bool kUniform, bool kCosine>  // which directions are wanted
+// The light from direction w, of the nearest vertex.
+HWY_INLINE Vector Light(const Frame& f, const Vector& w) {
+  const D d;
+  const DI di;
+  const V ax = hn::Abs(w.x), ay = hn::Abs(w.y), az = hn::Abs(w.z);
+  const M is_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az)), is_y = hn::Ge(ay, az);
+  auto choose = [&](V on_x, V on_y, V on_z) HWY_ATTR {
+    return hn::IfThenElse(is_x, on_x, hn::IfThenElse(is_y, on_y, on_z));
+  };
+  const V major = choose(w.x, w.y, w.z), half = hn::Set(d, 0.5f);
+  const V scale = hn::Div(half, hn::Abs(major));
+  const V cells = hn::Set(d, static_cast<float>(f.light_cells));
+  auto nearest = [&](V component) HWY_ATTR {
+    const V at = hn::MulAdd(hn::MulAdd(component, scale, half), cells, half);
+    return hn::Floor(hn::Min(hn::Max(at, hn::Zero(d)), cells));
+  };
+  const V i = nearest(choose(w.y, w.z, w.x)), j = nearest(choose(w.z, w.x, w.y));
+  const V negative = hn::IfThenElseZero(hn::Lt(major, hn::Zero(d)), hn::Set(d, 1.0f));
+  const V face = hn::Add(choose(hn::Zero(d), hn::Set(d, 2.0f), hn::Set(d, 4.0f)), negative);
+  const V side = hn::Set(d, static_cast<float>(f.light_cells + 1));
+  HWY_ALIGN std::int32_t index[kMaxLanes];
+  hn::Store(hn::ConvertTo(di, hn::MulAdd(hn::MulAdd(face, side, j), side, i)), di, index);
+  return {GatherLanes(d, f.light[0], index), GatherLanes(d, f.light[1], index),
+          GatherLanes(d, f.light[2], index)};
+}
+
+template <bool kUniform, bool kCosine, bool kLight>  // what is wanted beside visibility
 void SumPixels(const Frame& f, int row, int width, const Sums& out) {
   const D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -122,7 +148,8 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
   const std::ptrdiff_t row_at = y * f.stride + f.left;
   const int tile_y = row % f.interleave;
   const V stratum = hn::Set(d, 1.0f / static_cast<float>(f.samples));
-  const V step = hn::Set(d, f.radius / static_cast<float>(f.tests));
+  const V step = hn::Set(d, 1.0f / static_cast<float>(f.tests));
+  const V radius = hn::Set(d, f.radius);
   const V inverse_radius = hn::Set(d, 1 / f.radius);
   for (int x = 0; x < width; x += lanes) {
     const V z = hn::LoadU(d, f.depth + row_at + x);
@@ -136,7 +163,7 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
     const V shift = tile(hemisphere::kTileShift), tile_offset = tile(hemisphere::kTileOffset);
 
     V open = zero, open_cosine = zero;
-    Vector sum{zero, zero, zero}, sum_cosine{zero, zero, zero};
+    Vector sum{zero, zero, zero}, sum_cosine{zero, zero, zero}, light{zero, zero, zero};
     for (int i = 0; i < f.samples; ++i) {
       // Strata of equal solid angle in height, the golden angle in azimuth.
       const V cosine =
@@ -154,7 +181,9 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
       V visible = one;
       M free = valid;
       for (int k = 0; k < f.tests; ++k) {
-        const V t = hn::Mul(hn::Add(hn::Set(d, static_cast<float>(k)), offset), step);
+        // Denser towards the receiver, where occluders cover more of the hemisphere.
+        const V share = hn::Mul(hn::Add(hn::Set(d, static_cast<float>(k)), offset), step);
+        const V t = hn::Mul(hn::Mul(share, share), radius);
         const M behind = Behind(f, r, w, cosine, t, free);
         // V = 1 - rho at the first point that is behind.
         V rest = zero;
@@ -171,6 +200,11 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
       if constexpr (kUniform) {
         sum = {hn::MulAdd(visible, w.x, sum.x), hn::MulAdd(visible, w.y, sum.y),
                hn::MulAdd(visible, w.z, sum.z)};
+      }
+      if constexpr (kLight) {
+        const Vector l = Light(f, w);
+        light = {hn::MulAdd(weighted, l.x, light.x), hn::MulAdd(weighted, l.y, light.y),
+                 hn::MulAdd(weighted, l.z, light.z)};
       }
       if constexpr (kCosine) {
         sum_cosine = {hn::MulAdd(weighted, w.x, sum_cosine.x),
@@ -193,6 +227,12 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
       hn::StoreU(rest(v.y, r.t.y, r.b.y, n.y), d, to[2] + x);
       hn::StoreU(rest(v.z, r.t.z, r.b.z, n.z), d, to[3] + x);
     };
+    if constexpr (kLight) {
+      const V by = hn::Div(one, tile(hemisphere::kTileCosineSum));
+      hn::StoreU(hn::Mul(light.x, by), d, out.radiance[0] + x);
+      hn::StoreU(hn::Mul(light.y, by), d, out.radiance[1] + x);
+      hn::StoreU(hn::Mul(light.z, by), d, out.radiance[2] + x);
+    }
     store(out.uniform, open, sum, stratum, hemisphere::kTileMean);
     store(out.cosine, open_cosine, sum_cosine, hn::Div(one, tile(hemisphere::kTileCosineSum)),
           hemisphere::kTileCosineMean);
@@ -200,13 +240,10 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
 }
 
 void SumRow(const Frame& f, int row, int width, const Sums& sums) {
-  if (sums.cosine[1]) {
-    sums.uniform[1] ? SumPixels<true, true>(f, row, width, sums)
-                    : SumPixels<false, true>(f, row, width, sums);
-  } else {
-    sums.uniform[1] ? SumPixels<true, false>(f, row, width, sums)
-                    : SumPixels<false, false>(f, row, width, sums);
-  }
+  if (sums.radiance[0]) return SumPixels<false, false, true>(f, row, width, sums);
+  if (sums.cosine[1]) return SumPixels<false, true, false>(f, row, width, sums);
+  sums.uniform[1] ? SumPixels<true, false, false>(f, row, width, sums)
+                  : SumPixels<false, false, false>(f, row, width, sums);
 }
 
 HWY_INLINE M IsSurface(V s) {

@@ -119,13 +119,13 @@ TEST(Hemisphere, BesideAWallHalfIsOpen) {
 }
 
 // At the bottom of a round shaft of endless height and radius r a direction is blocked where its
-// last point, at t in [8/9 R, R], is beyond the shaft: a cap with sin(alpha) = r/t. Its
-// cosine-weighted visibility sin^2(alpha) is r^2/R^2 times the mean of (R/t)^2, 9/8.
+// last point, at t in [(8/9)^2 R, R], is beyond the shaft: a cap with sin(alpha) = r/t. Its
+// cosine-weighted visibility sin^2(alpha) is r^2/R^2 times the mean of (R/t)^2, 1.2714.
 TEST(Hemisphere, CapsAreFoundAtTheBottomOfAShaft) {
   Picture p(96, 96, true);
   p.field.camera = Camera::orthographic_height(9.6f, 96, 96);
   p.plane(0, 0, 1, 20);
-  const double radius = 3.0, reach = 4.5;
+  const double radius = 3.0, reach = 4.7;
   for (int y = 0; y < 96; ++y) {
     for (int x = 0; x < 96; ++x) {
       if (std::hypot(x - 47.5, y - 47.5) * 0.1 > radius) p.depth[y * 96 + x] = 1;
@@ -137,7 +137,7 @@ TEST(Hemisphere, CapsAreFoundAtTheBottomOfAShaft) {
                      .interleave = 2})
                   .ok());
   const int i = 48 * 96 + 48;
-  const double square = 1.125 * radius * radius / (reach * reach);
+  const double square = 1.2714 * radius * radius / (reach * reach);
   EXPECT_NEAR(p.visibility[i], square, 0.02);
   EXPECT_NEAR(p.angle[i], std::asin(std::sqrt(square)), 0.02);
   EXPECT_NEAR(p.bent[3 * i + 2], 1, 2e-3);
@@ -185,6 +185,33 @@ TEST(Hemisphere, BitsDoNotDependOnThreads) {
   EXPECT_EQ(a.visibility, b.visibility);
   EXPECT_EQ(a.bent, b.bent);
   EXPECT_EQ(a.cosine, b.cosine);
+}
+
+// Constant light gives visibility times the light; beside a wall on the left, light from the right
+// arrives in full.
+TEST(Hemisphere, DirectionsGatherTheirLight) {
+  Picture p(64, 64, true);
+  p.plane(0, 0, 1, 50);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 32; ++x) p.depth[y * 64 + x] = 1;
+  }
+  HemisphereSettings s{
+      .falloff = {.kind = FalloffKind::kConstant, .radius = 0.9f}, .samples = 32, .steps = 4};
+  s.radiance = [](const std::array<float, 3>& w) {
+    return std::array<float, 3>{2, w[0] > 0 ? 2.0f : 0.0f, 1 + w[0]};
+  };
+  std::vector<float> rgb(3 * 64 * 64);
+  Outputs o;
+  o.visibility = ImageView<float>(p.visibility.data(), 64, 64);
+  o.cosine_integral = VectorView<float>::interleaved(p.cosine.data(), 64, 64);
+  o.radiance = VectorView<float>::interleaved(rgb.data(), 64, 64);
+  ASSERT_TRUE(compute(p.field, s, o).ok());
+  for (int i = 0; i < 64 * 64; ++i) ASSERT_NEAR(rgb[3 * i], 2 * p.visibility[i], 1e-4);
+  const int i = 32 * 64 + 36;
+  EXPECT_NEAR(rgb[3 * i + 1], 1, 0.06);
+  EXPECT_NEAR(rgb[3 * i + 2], p.visibility[i] + p.cosine[3 * i], 0.04);
+  s.radiance = {};
+  EXPECT_EQ(compute(p.field, s, o).code(), StatusCode::kUnsupported);
 }
 
 TEST(Hemisphere, SettingsAreChecked) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,17 +52,32 @@ class Gyroid {
   std::vector<float> values, distance;
 };
 
-double seconds_of(const std::function<void()>& f) {
+// Processor time is what a busy machine leaves comparable; with one thread it is the wall's on an
+// idle one.
+struct Seconds {
+  double wall = 0, processor = 0;
+};
+Seconds seconds_of(const std::function<void()>& f) {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t clock = std::clock();
   f();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double processor = double(std::clock() - clock) / CLOCKS_PER_SEC;
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          processor};
 }
 
-void report(benchmark::State& state, std::vector<double> times, double voxels, double loops) {
-  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-  const double ns = times[times.size() / 2] * 1e9 / voxels;
-  state.counters["ns/voxel"] = ns;
-  if (loops > 0) state.counters["times_loops"] = loops / ns;
+// `loops`: nanoseconds of processor time per voxel of the plain loops, or 0.
+void report(benchmark::State& state, std::vector<Seconds> times, double voxels, double loops) {
+  auto median = [&](double Seconds::*part) {
+    const auto middle = times.begin() + std::ptrdiff_t(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end(),
+                     [&](const Seconds& a, const Seconds& b) { return a.*part < b.*part; });
+    return (*middle).*part * 1e9 / voxels;
+  };
+  const double processor = median(&Seconds::processor);
+  state.counters["ns/voxel"] = median(&Seconds::wall);
+  state.counters["cpu_ns/voxel"] = processor;
+  if (loops > 0) state.counters["times_loops"] = loops / processor;
 }
 
 // The eight sweeps, without the start.
@@ -100,7 +117,7 @@ double distance_loops(double* difference) {
       for (int x = 0; x < n; ++x) loops[at(x, y, z)] = std::min(1e10f, std::fabs(g.distance[i++]));
     }
   }
-  const double seconds = seconds_of([&] { reference::sweep_distance_loops(loops, n); });
+  const double seconds = seconds_of([&] { reference::sweep_distance_loops(loops, n); }).processor;
   if (!sweep_distance(g.view(), settings, g.grid()).ok()) return 0;
   *difference = 0;
   i = 0;
@@ -127,12 +144,12 @@ void distance(benchmark::State& state) {
   DistanceStage second(g.size[0], g.size[1], spacing, true);
   DistanceSettings settings;
   settings.solid = SolidSide::kBelow;
-  std::vector<double> times;
+  std::vector<Seconds> times;
   for (auto _ : state) {
     std::int64_t solid, open;
     start_distance(g.view(), settings, g.grid(), *executor, &solid, &open);
     times.push_back(seconds_of([&] { sweep_eight(g, first, second, *executor); }));
-    state.SetIterationTime(times.back());
+    state.SetIterationTime(times.back().wall);
   }
   report(state, times, g.voxels(), loops);
 }
@@ -157,7 +174,8 @@ double octant_loops(double* difference) {
   }
   const std::size_t p = kLoopSide + 2;
   std::vector<float> w(p * p * p), v(8 * tau.size());
-  const double seconds = seconds_of([&] { reference::sweep_octants_loops(tau, kLoopSide, w, v); });
+  const double seconds =
+      seconds_of([&] { reference::sweep_octants_loops(tau, kLoopSide, w, v); }).processor;
   VisibilityField field;
   if (!sweep_occlusion(g.grid(), {.transport = Transport::kPaper}, &field).ok()) return 0;
   *difference = 0;
@@ -185,7 +203,7 @@ void octants(benchmark::State& state) {
   for (auto& o : out) o.assign(4 * tau.size(), 0);
   auto executor = make_executor(static_cast<int>(state.range(1)));
   const TransportScheme scheme = transport_scheme(Transport::kPaper, {1, 1, 1});
-  std::vector<double> times;
+  std::vector<Seconds> times;
   for (auto _ : state) {
     times.push_back(seconds_of([&] {
       executor->parallel_for(2, [&](int half, int) {
@@ -193,7 +211,7 @@ void octants(benchmark::State& state) {
             {tau.data(), g.size, half == 0, scheme.directions.data(), 1, out[half].data()});
       });
     }));
-    state.SetIterationTime(times.back());
+    state.SetIterationTime(times.back().wall);
   }
   report(state, times, g.voxels(), loops);
 }
@@ -219,11 +237,11 @@ void transport(benchmark::State& state) {
   if (!sweep_occlusion(g.grid(), settings, &field, run).ok()) {
     return state.SkipWithError("the input was refused");
   }
-  std::vector<double> times;
+  std::vector<Seconds> times;
   for (auto _ : state) {
     times.push_back(
         seconds_of([&] { (void)!sweep_occlusion(g.grid(), settings, &field, run).ok(); }));
-    state.SetIterationTime(times.back());
+    state.SetIterationTime(times.back().wall);
   }
   report(state, times, g.voxels(), 0);
   state.counters["bytes/voxel"] = double(field.bytes()) / g.voxels();

@@ -22,6 +22,10 @@ const std::vector<Reproduction>& reproductions() {
       {"sweep-table2",
        "Fast occlusion sweeping, Table 2: time of the sweeps on five sizes of grid.",
        reproduce_sweep_table2},
+      {"sweep-error", "Fast occlusion sweeping: error of each transport against Monte Carlo.",
+       reproduce_sweep_error},
+      {"sweep-fig3", "Fast occlusion sweeping, Figure 3: local light, the sweeps and Monte Carlo.",
+       reproduce_sweep_fig3},
   };
   return list;
 }

@@ -7,6 +7,8 @@
 namespace obscura::support {
 
 Status reproduce_sweep_table2(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_sweep_error(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_sweep_fig3(const ReproduceContext& context, Report* report, std::string* text);
 
 }  // namespace obscura::support
 

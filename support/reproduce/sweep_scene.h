@@ -1,0 +1,34 @@
+#ifndef OBSCURA_SUPPORT_REPRODUCE_SWEEP_SCENE_H_
+#define OBSCURA_SUPPORT_REPRODUCE_SWEEP_SCENE_H_
+
+#include <string>
+#include <vector>
+
+#include "support/image.h"
+#include "support/volume/volume_image.h"
+
+namespace obscura::support {
+
+// A volume with its distances and the points of its surface that an orthographic view sees.
+struct SweepScene {
+  VolumeImage image;
+  std::vector<float> distance;
+  std::array<float, 3> view{};  // unit direction away from the eye, grid space
+  int side = 0;                 // pixels
+  std::vector<SurfacePoint> points;
+  std::vector<int> pixels;  // of the points, row by row
+
+  GridView<const float> grid() const {
+    const VolumeView v = image.view();
+    return {distance.data(), v.size, v.spacing};
+  }
+  // Values of the points as a picture; white elsewhere.
+  Image picture(const std::vector<float>& values) const;
+};
+
+// Loads a volume, sweeps distances from its own isovalue or Otsu's, and traces the view.
+Status load_sweep_scene(const std::string& spec, int side, const VolumeRun& run, SweepScene* scene);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_REPRODUCE_SWEEP_SCENE_H_

@@ -34,6 +34,7 @@ void add_demo(App& app);
 void add_gbuffer(App& app);
 void add_info(App& app);
 void add_light(App& app);
+void add_patterns(App& app);
 void add_reproduce(App& app);
 void add_settings(App& app);
 

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   add_light(app);
   add_demo(app);
   add_bench(app);
+  add_patterns(app);
   add_reproduce(app);
   add_settings(app);
   bool known = argc < 2 || argv[1][0] == '-';

@@ -37,14 +37,29 @@ class OptionTable {
   // the message: "--method line".
   Status refuse_others(const std::string& label, const std::string& what) const;
 
-  // Lays the options that were given over the fields of a struct.
+  // Lays the options that were given over the fields of a struct. `--radius R1,R2` is short for
+  // `--radius R1 --second-radius R2` where there are two.
   template <class Settings>
   Status read(Settings* settings) const {
     Status status;
     visit_fields(*settings, [&](auto& value, const Field& field) {
-      const auto at = options_.find(field.name);
-      if (!status.ok() || at == options_.end() || at->second.option->count() == 0) return;
-      status = parse_setting("--" + option_name(field.name), field, at->second.text, &value);
+      if (!status.ok()) return;
+      const std::string name = field.name;
+      if constexpr (requires { settings->dual; }) {
+        const auto radius = options_.find("radius");
+        const bool both = radius != options_.end() && radius->second.option->count() > 0;
+        const std::string text = both ? radius->second.text : "";
+        const std::size_t comma = text.find(',');
+        if (comma != text.npos && (name == "radius" || name == "second_radius")) {
+          const std::string part =
+              name == "radius" ? text.substr(0, comma) : text.substr(comma + 1);
+          status = parse_setting("--radius", field, part, &value);
+          return;
+        }
+      }
+      const auto at = options_.find(name);
+      if (at == options_.end() || at->second.option->count() == 0) return;
+      status = parse_setting("--" + option_name(name), field, at->second.text, &value);
     });
     return status;
   }

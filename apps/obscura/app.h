@@ -37,6 +37,7 @@ void add_light(App& app);
 void add_patterns(App& app);
 void add_reproduce(App& app);
 void add_settings(App& app);
+void add_volume(App& app);
 
 }  // namespace obscura::app
 

@@ -4,6 +4,7 @@
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/output.h"
+#include "apps/obscura/volume_input.h"
 #include "fmt/format.h"
 #include "support/files/describe.h"
 #include "support/files/files.h"
@@ -13,10 +14,29 @@ namespace {
 
 struct InfoCommand {
   std::string path, json;
+  VolumeInputOptions volume;
 };
+
+Status run_volume_info(const InfoCommand& c) {
+  support::VolumeImage image;
+  nlohmann::ordered_json description;
+  if (Status s = c.volume.load(c.path, &image); !s.ok()) return s;
+  if (Status s = support::describe_volume(image, &description); !s.ok()) return s;
+  if (c.json != "-") std::fputs(support::volume_description_text(description).c_str(), stdout);
+  if (c.json.empty()) return {};
+  support::Report report;
+  report.settings = description;
+  for (const char* metric : {"min", "max", "mean", "otsu_threshold", "finite", "nan", "infinite"}) {
+    if (description.contains(metric)) {
+      report.add("values", metric, description[metric].get<double>());
+    }
+  }
+  return write_json(report, c.json);
+}
 
 Status run_info(const InfoCommand& c) {
   nlohmann::ordered_json description;
+  if (support::is_volume(c.path)) return run_volume_info(c);
   if (Status s = support::describe_image(c.path, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(support::description_text(description).c_str(), stdout);
   if (c.json.empty()) return {};
@@ -38,7 +58,12 @@ void add_info(App& app) {
   auto c = std::make_shared<InfoCommand>();
   CLI::App* command = app.add_command("info", "What a file holds and how it would be read",
                                       [c] { return run_info(*c); });
-  command->add_option("FILE", c->path, "Image: EXR, PFM, PNG or HDR")->required()->type_name("");
+  command
+      ->add_option("FILE", c->path,
+                   "Image: EXR, PFM, PNG or HDR; volume: .nii, .nii.gz, .nrrd, .nhdr, .vdb, .raw")
+      ->required()
+      ->type_name("");
+  c->volume.add_to(command);
   command->add_option("--json", c->json, "Write it as JSON; - is standard output")
       ->type_name("FILE");
 }

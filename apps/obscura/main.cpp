@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   add_compare(app);
   add_info(app);
   add_light(app);
+  add_volume(app);
   add_demo(app);
   add_bench(app);
   add_patterns(app);

@@ -184,7 +184,7 @@ Shape vessels(std::uint32_t seed) {
   };
 }
 
-// Puffs on puffs: a ball of balls whose joints are rounded.
+// Puffs on puffs: balls around a flat-bottomed heap, each with smaller ones on it.
 Shape cloud(std::uint32_t seed) {
   struct Puff {
     Double3 centre;
@@ -192,22 +192,37 @@ Shape cloud(std::uint32_t seed) {
   };
   Random random(seed);
   std::vector<Puff> puffs;
-  for (int i = 0; i < 60; ++i) {
-    const double turn = 2 * kPi * random(), height = 2 * random() - 1;
-    const double across = std::sqrt(1 - height * height), reach = std::sqrt(random());
-    puffs.push_back({{0.5 + 0.3 * reach * across * std::cos(turn),
-                      0.5 + 0.24 * reach * across * std::sin(turn), 0.5 + 0.16 * reach * height},
-                     0.05 + 0.09 * random()});
+  auto grow = [&](const Puff& on, double share) {
+    const double turn = 2 * kPi * random(), height = 2 * random() - 0.7;
+    const double up = std::clamp(height, -1.0, 1.0), across = std::sqrt(1 - up * up);
+    Puff next;
+    next.radius = on.radius * share * (0.7 + 0.6 * random());
+    const double reach = on.radius * 0.95;
+    next.centre = {on.centre[0] + reach * across * std::cos(turn),
+                   on.centre[1] + reach * across * std::sin(turn), on.centre[2] + reach * up};
+    puffs.push_back(next);
+    return next;
+  };
+  for (int i = 0; i < 5; ++i) {
+    puffs.push_back({{0.28 + 0.11 * i, 0.5 + 0.08 * (random() - 0.5), 0.42 + 0.05 * random()},
+                     0.1 + 0.05 * random()});
+  }
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      const Puff middle = grow(Puff(puffs[std::size_t(i)]), 0.5);
+      for (int k = 0; k < 4; ++k) grow(middle, 0.45);
+    }
   }
   return [puffs](const Double3& p) {
-    double sum = 0;
-    constexpr double kSharpness = 40;
+    double d = 1e9;
     for (const Puff& puff : puffs) {
-      sum += std::exp(-kSharpness * sphere(p, puff.centre, puff.radius));
+      // A rounded union: lower than both by up to a quarter of the width where they meet.
+      constexpr double kWidth = 0.015;
+      const double e = sphere(p, puff.centre, puff.radius);
+      const double h = std::max(kWidth - std::abs(d - e), 0.0) / kWidth;
+      d = std::min(d, e) - h * h * kWidth / 4;
     }
-    // Low bumps all over.
-    const double bumps = std::sin(47 * p[0]) * std::sin(53 * p[1] + 1) * std::sin(43 * p[2] + 2);
-    return -std::log(std::max(sum, 1e-300)) / kSharpness + 0.006 * bumps;
+    return std::max(d, 0.36 - p[2]);
   };
 }
 

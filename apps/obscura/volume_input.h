@@ -1,0 +1,25 @@
+#ifndef OBSCURA_APPS_OBSCURA_VOLUME_INPUT_H_
+#define OBSCURA_APPS_OBSCURA_VOLUME_INPUT_H_
+
+#include <string>
+
+#include "CLI/CLI.hpp"
+#include "support/volume/load_volume.h"
+
+namespace obscura::app {
+
+// INPUT's options where it is a volume: the layout of .raw files and the clip box.
+class VolumeInputOptions {
+ public:
+  void add_to(CLI::App* command);
+
+  Status load(const std::string& path, support::VolumeImage* image) const;
+
+ private:
+  std::string size_, type_, spacing_, clip_;
+  bool big_endian_ = false;
+};
+
+}  // namespace obscura::app
+
+#endif  // OBSCURA_APPS_OBSCURA_VOLUME_INPUT_H_

@@ -1,0 +1,104 @@
+#include "support/files/files.h"
+#include "support/volume/load_volume.h"
+#include "support/volume/vdb.h"
+#include "tests/command/run_command.h"
+
+namespace obscura {
+namespace {
+
+using VolumeCommand = CommandTest;
+
+TEST_F(VolumeCommand, PicturesOfEveryLight) {
+  for (const char* light :
+       {"ao", "headlight", "octants:4,5,6,7", "octants:upper", "shadow:1,1,2", "translucent:0.5"}) {
+    expect_success(std::string("volume volume:sphere-over-plane?size=24 --size 40x30 -q -o a.pfm "
+                               "--light ") +
+                   light);
+    support::Image image;
+    ASSERT_TRUE(support::read_image(path("a.pfm"), &image).ok());
+    EXPECT_EQ(image.width, 40);
+    EXPECT_EQ(image.height, 30);
+    EXPECT_EQ(image.channels[0].values[0], 1);  // background
+    float least = 1;
+    for (float v : image.channels[0].values) {
+      EXPECT_TRUE(v >= 0 && v <= 1) << light;
+      least = std::min(least, v);
+    }
+    EXPECT_LT(least, 0.9f) << light;
+  }
+}
+
+TEST_F(VolumeCommand, MonteCarloAgreesWithTheSweep) {
+  const std::string volume = "volume volume:cup?size=40 --size 48x48 -q ";
+  expect_success(volume + "-o sweep.exr --outputs visibility,coverage,depth --json sweep.json");
+  expect_success(volume + "-o rays.exr --method monte-carlo --rays 64");
+  support::Image sweep, rays;
+  ASSERT_TRUE(support::read_image(path("sweep.exr"), &sweep).ok());
+  ASSERT_TRUE(support::read_image(path("rays.exr"), &rays).ok());
+  const auto& a = sweep.find("visibility")->values;
+  const auto& b = rays.find("visibility")->values;
+  double error = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) error += std::abs(a[i] - b[i]) / double(a.size());
+  EXPECT_LT(error, 0.05);
+  EXPECT_NE(sweep.find("coverage"), nullptr);
+  EXPECT_NE(sweep.find("depth"), nullptr);
+  EXPECT_NE(read_file(path("sweep.json")).find("time to render"), std::string::npos);
+}
+
+TEST_F(VolumeCommand, IsovalueIsChosenAndSaid) {
+  std::string bytes(512, '\0');
+  for (int i = 0; i < 256; ++i) bytes[std::size_t(i)] = 100;
+  write("a.raw", bytes);
+  const CommandResult r = run("volume a.raw --raw-size 8x8x8 --size 16x16 -o a.png");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.out.find("isovalue 50 (Otsu's threshold"), std::string::npos) << r.out;
+  expect_failure("volume a.raw --raw-size 8x8x8 --iso 200 -o b.png", 2, "go from 0 to 100");
+  EXPECT_FALSE(std::filesystem::exists(path("b.png")));
+  const CommandResult info = run("info a.raw --raw-size 8x8x8");
+  EXPECT_NE(info.out.find("Otsu's threshold 50"), std::string::npos) << info.out << info.err;
+}
+
+TEST_F(VolumeCommand, FieldsAreVolumes) {
+  expect_success(
+      "volume volume:sphere?size=16 -q --fields d.nrrd --fields-of distance --clip 2:13,:,:");
+  support::VolumeImage image;
+  ASSERT_TRUE(support::load_volume(path("d.nrrd"), {}, &image).ok());
+  EXPECT_EQ(image.size, (std::array{12, 16, 16}));
+  EXPECT_NEAR(image.origin[0], 2.5 / 16, 1e-6);
+  expect_success("volume volume:sphere?size=16 -q --fields v.nrrd --fields-of scalar");
+  ASSERT_TRUE(support::load_volume(path("v.nrrd"), {}, &image).ok());
+  if (support::has_openvdb()) {
+    expect_success("volume volume:sphere?size=16 -q --fields v.vdb");
+    ASSERT_TRUE(support::load_volume(path("v.vdb"), {}, &image).ok());
+  }
+}
+
+TEST_F(VolumeCommand, BadUsageAndInput) {
+  const std::string ball = "volume volume:sphere?size=8 ";
+  expect_failure(ball, 2, "nothing to write");
+  expect_failure(ball + "-o a.txt", 2, "a.txt");
+  expect_failure(ball + "-o a.png --light neon", 2, "--light is 'neon'");
+  expect_failure(ball + "-o a.png --light octants:8", 2, "--light");
+  expect_failure(ball + "-o a.png --light shadow:0,0,0", 2, "--light");
+  expect_failure(ball + "-o a.png --light translucent:2", 2, "--light");
+  expect_failure(ball + "-o a.pfm --gamma 2", 2, "--gamma");
+  expect_failure(ball + "-o a.png --outputs depth", 2, "depth");
+  expect_failure(ball + "-o a.png --outputs visibility,depth", 2, "one result");
+  expect_failure(ball + "-o a.png --rays 5", 2, "monte-carlo");
+  expect_failure(ball + "-o a.png --method monte-carlo --light headlight", 2, "monte-carlo");
+  expect_failure(ball + "-o a.png --clip 1:2", 2, "clip");
+  expect_failure(ball + "-o a.png --clip 0:8,:,:", 2, "clip");
+  expect_failure(ball + "-o a.png --raw-size 2x2x2", 2, "raw");
+  expect_failure(ball + "-o a.png --raw-type u8", 2, "--raw-size");
+  expect_failure(ball + "-o a.png --ortho-height 2 --fov-y 30", 2, "fov-y");
+  expect_failure(ball + "-o a.png --eye 1,1,1 --look-at 1,1,1", 2, "apart");
+  expect_failure(ball + "--fields a.txt", 2, "--fields");
+  expect_failure(ball + "--fields a.nrrd --light headlight", 2, "--fields");
+  expect_failure("volume none.nii -o a.png", 3, "none.nii");
+  expect_failure("volume none.txt -o a.png", 3, "by its name");
+  expect_failure(ball + "-o /none/a.png", 1, "/none/a.png");
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+}
+
+}  // namespace
+}  // namespace obscura

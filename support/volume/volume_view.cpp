@@ -53,7 +53,7 @@ std::array<Vec3, 8> matter_corners(const VolumeImage& image, GridView<const floa
 // From the matter towards the default camera: ahead of its front, a little aside and above.
 Vec3 default_direction(Vec3 up) {
   const Vec3 front = std::abs(up.z) > std::abs(up.y) ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  return normalize(front - up * dot(front, up) + 0.55 * cross(front, up) + 0.6 * up);
+  return normalize(front - up * dot(front, up) + 0.55 * cross(front, up) + 0.45 * up);
 }
 
 }  // namespace

@@ -403,7 +403,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Vec
       for (int i = 0; i < n; ++i) sum += f.scheme.directions[i].weight * v[i];
       ++count;
     }
-    return sum / count;
+    return std::min(sum / count, 1.0f);
   }
   const bool through = f.alpha < 1;
   float sum = 0, all = 0;

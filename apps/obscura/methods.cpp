@@ -26,6 +26,8 @@ const std::vector<MethodEntry>& methods() {
       {"area", "Volumetric obscurance by area samples (Loos and Sloan 2010)", AreaSettings{}},
       {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
        FarFieldSettings{}},
+      {"mipmap", "Ambient obscurance from a depth pyramid, the far field's rival",
+       MipmapSettings{}},
       {"hemisphere", "Directions marched in depth: bent normals and cones (Klehm et al. 2011)",
        HemisphereSettings{}},
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},

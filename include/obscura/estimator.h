@@ -9,6 +9,7 @@
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
 #include "obscura/line.h"
+#include "obscura/mipmap.h"
 #include "obscura/outputs.h"
 #include "obscura/point.h"
 #include "obscura/reference.h"
@@ -18,7 +19,7 @@ namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
 using MethodSettings = std::variant<AreaSettings, FarFieldSettings, HemisphereSettings,
-                                    LineSettings, PointSettings, ReferenceSettings>;
+                                    LineSettings, MipmapSettings, PointSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

@@ -20,6 +20,13 @@ struct EnumNames<SlabProfile> {
   static constexpr const char* names[] = {"slab", "adaptive-chord"};
 };
 
+// Points on the measured front of error against time; see docs/methods/far-field.md.
+enum class FarFieldPreset { kNone, kFast, kBalanced, kHigh };
+template <>
+struct EnumNames<FarFieldPreset> {
+  static constexpr const char* names[] = {"none", "fast", "balanced", "high"};
+};
+
 // Distance between the direct samples of the near field.
 struct NearStep {
   float px = 0;  // (0, 8]; 0: adaptive, a quarter pixel at first and growing outwards
@@ -40,20 +47,23 @@ struct SettingText<NearStep> {
 // geometry as seen at two slopes; each receiver reads their averages over its azimuthal sector.
 // Direct samples serve the first one and a half intervals.
 struct FarFieldSettings {
-  Falloff falloff{};                                  // any
-  Occluder occluder{};                                // solid, thickness or back-depth
-  int directions = 16;                                // [4, 64] K
-  int segments = 2;                                   // [1, 8] S per direction
-  int interval = 10;                                  // [2, 64] B0, pixels
+  Falloff falloff{};                              // any
+  Occluder occluder{};                            // solid, thickness or back-depth
+  FarFieldPreset preset = FarFieldPreset::kNone;  // not none: sets directions, segments, near_step
+  int directions = 16;                            // [4, 64] K
+  int segments = 2;                               // [1, 8] S per direction
+  int interval = 10;                              // [2, 64] B0, pixels
   SlabProfile profile = SlabProfile::kAdaptiveChord;  // slab is the paper's
   int receiver_slope = -1;                            // [-1, 1], not 0: of the second height
-  NearStep near_step{.px = 0.25f};                    // px, or adaptive
+  NearStep near_step{.px = 0.5f};                     // px, or adaptive
   bool near_field = true;                             // false: the far field alone
 };
 template <FieldsOf<FarFieldSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
+  v(s.preset,
+    Field{"preset", "", {}, "Sets directions, segments and near_step, whatever they are."});
   v(s.directions,
     Field{"directions", "", closed(4, 64), "Directions K in which the depth image is scanned."});
   v(s.segments, Field{"segments", "per direction", closed(1, 8),

@@ -16,6 +16,7 @@
 #include "obscura/hemisphere.h"
 #include "obscura/lighting.h"
 #include "obscura/line.h"
+#include "obscura/mipmap.h"
 #include "obscura/occluder.h"
 #include "obscura/outputs.h"
 #include "obscura/patterns.h"

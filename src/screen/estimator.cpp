@@ -11,6 +11,7 @@
 #include "screen/hemisphere/hemisphere.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
+#include "screen/mipmap/mipmap.h"
 #include "screen/point/point.h"
 #include "screen/reference/reference.h"
 
@@ -44,6 +45,10 @@ Status make_method(const AreaSettings& s, int w, int h, std::unique_ptr<Method>*
 }
 Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>* m) {
   return make_volumetric(s, make_point, w, h, m);
+}
+
+Status make_method(const MipmapSettings& s, int, int, std::unique_ptr<Method>* m) {
+  return make_mipmap(s, m);
 }
 
 Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>* m) {

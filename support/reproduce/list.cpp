@@ -1,4 +1,5 @@
 #include "support/reproduce/bent.h"
+#include "support/reproduce/far_field.h"
 #include "support/reproduce/reproduce.h"
 #include "support/reproduce/sweeps.h"
 #include "support/reproduce/volumetric.h"
@@ -11,6 +12,12 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_vo_table1},
       {"vo-flicker", "Whether lines flicker less than points", reproduce_vo_flicker},
       {"vo-patterns", "Integration errors of the sample patterns", reproduce_vo_patterns},
+      {"ffao-table1", "Times of far field and mipmap at two resolutions", reproduce_ffao_table1},
+      {"ffao-table3", "Time of the far field against its base interval", reproduce_ffao_table3},
+      {"ffao-fig7", "Errors of far field and mipmap on two scenes, with pictures",
+       reproduce_ffao_fig7},
+      {"error-vs-time", "Error against time, by the depth field's truth and by the world's",
+       reproduce_error_vs_time},
       {"bent-overhead", "What bent normals and cones cost beside visibility (section 5)",
        reproduce_bent_overhead},
       {"bent-fig6", "Light through AO, bent normals and cones against the truth (figure 6)",

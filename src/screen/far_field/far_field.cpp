@@ -175,7 +175,35 @@ class FarFieldMethod final : public Method {
 }  // namespace
 }  // namespace far_field
 
-Status make_far_field(const FarFieldSettings& settings, std::unique_ptr<Method>* method) {
+namespace {
+
+FarFieldSettings with_preset(FarFieldSettings s) {
+  switch (s.preset) {
+    case FarFieldPreset::kNone:
+      break;
+    case FarFieldPreset::kFast:
+      s.directions = 8;
+      s.segments = 1;
+      s.near_step = NearStep::of(1);
+      break;
+    case FarFieldPreset::kBalanced:
+      s.directions = 8;
+      s.segments = 2;
+      s.near_step = NearStep::of(1);
+      break;
+    case FarFieldPreset::kHigh:
+      s.directions = 24;
+      s.segments = 2;
+      s.near_step = NearStep::of(0.25f);
+      break;
+  }
+  return s;
+}
+
+}  // namespace
+
+Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* method) {
+  const FarFieldSettings settings = with_preset(given);
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(settings.falloff); !s.ok()) return s;
   if (Status s = validate(settings.occluder); !s.ok()) return s;

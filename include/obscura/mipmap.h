@@ -1,0 +1,36 @@
+#ifndef OBSCURA_MIPMAP_H_
+#define OBSCURA_MIPMAP_H_
+
+#include "obscura/falloff.h"
+
+namespace obscura {
+
+enum class DepthPyramid {
+  kAverage,  // means, read with trilinear interpolation
+  kNearest,  // the papers' max-mipmap: the nearest depth, read without interpolation
+};
+template <>
+struct EnumNames<DepthPyramid> {
+  static constexpr const char* names[] = {"average", "nearest"};
+};
+
+// Ambient obscurance from a depth pyramid (far-field ambient obscurance, section 5): the far
+// field's rival, with the same estimator. Along each of K directions the step grows by a factor;
+// samples come from the level as wide as the sector; the last one lies at the image's edge.
+struct MipmapSettings {
+  Falloff falloff{};                              // any
+  int directions = 16;                            // [4, 64] K
+  float step_factor = 1.5f;                       // [1.05, 4]
+  DepthPyramid pyramid = DepthPyramid::kAverage;  // nearest: the paper's for finite thickness
+};
+template <FieldsOf<MipmapSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  v(s.directions, Field{"directions", "", closed(4, 64), "Azimuthal directions K."});
+  v(s.step_factor, Field{"step_factor", "", closed(1.05, 4), "Growth of the step per sample."});
+  v(s.pyramid, Field{"pyramid", "", {}, "What a texel of a lower resolution holds."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_MIPMAP_H_

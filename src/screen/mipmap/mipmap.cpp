@@ -1,0 +1,96 @@
+#include "screen/mipmap/mipmap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "screen/mipmap/mipmap_kernel.h"
+
+namespace obscura {
+namespace {
+
+class MipmapMethod final : public Method {
+ public:
+  MipmapMethod(const MipmapSettings& settings, math::Rho rho)
+      : settings_(settings), rho_(std::move(rho)) {}
+
+  view::Needs needs() const override { return {.normals = true}; }
+
+  Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
+    if (outputs.visibility.empty()) return {};
+    build(g, context.executor);
+    MipmapFrame f;
+    f.geometry = &g;
+    f.rho = &rho_;
+    for (const AlignedImage<float>& level : levels_) {
+      if (f.level_count == kMaxMipmapLevels) break;
+      f.levels[f.level_count++] = {level.data(), level.width(), level.height(), level.stride()};
+    }
+    f.directions = settings_.directions;
+    f.step_factor = settings_.step_factor;
+    f.interpolate = settings_.pyramid == DepthPyramid::kAverage;
+    const int width = g.visible_width(), height = g.visible_height();
+    rows_.resize(width, height);
+    Progress progress(height, context.progress);
+    context.executor.parallel_for(height, [&](int y, int) {
+      if (progress.cancelled()) return;
+      mipmap_row(f, y, rows_.row(y));
+      for (int x = 0; x < width; ++x) outputs.visibility(x, y) = rows_(x, y);
+      progress.advance();
+    });
+    if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
+    return {};
+  }
+
+ private:
+  // Means or minima of the finite depths among four; background where all four are.
+  void build(const view::Geometry& g, Executor& executor) {
+    int count = 1;
+    while (std::max(g.width, g.height) >> count >= 1) ++count;
+    levels_.resize(count);
+    levels_[0].resize(g.width, g.height);
+    executor.parallel_for(g.height, [&](int y, int) {
+      for (int x = 0; x < g.width; ++x) {
+        const float d = g.depth(x, y);
+        levels_[0](x, y) = std::isfinite(d) ? d : 0;
+      }
+    });
+    const bool mean = settings_.pyramid == DepthPyramid::kAverage;
+    for (int i = 1; i < count; ++i) {
+      const AlignedImage<float>& fine = levels_[i - 1];
+      AlignedImage<float>& coarse = levels_[i];
+      coarse.resize((fine.width() + 1) / 2, (fine.height() + 1) / 2);
+      executor.parallel_for(coarse.height(), [&](int y, int) {
+        const int y0 = 2 * y, y1 = std::min(y0 + 1, fine.height() - 1);
+        for (int x = 0; x < coarse.width(); ++x) {
+          const int x0 = 2 * x, x1 = std::min(x0 + 1, fine.width() - 1);
+          float sum = 0, nearest = 0, finite = 0;
+          for (float d : {fine(x0, y0), fine(x1, y0), fine(x0, y1), fine(x1, y1)}) {
+            if (d == 0) continue;
+            nearest = finite == 0 ? d : std::min(nearest, d);
+            sum += d;
+            ++finite;
+          }
+          coarse(x, y) = finite == 0 ? 0 : mean ? sum / finite : nearest;
+        }
+      });
+    }
+  }
+
+  const MipmapSettings settings_;
+  const math::Rho rho_;
+  std::vector<AlignedImage<float>> levels_;
+  AlignedImage<float> rows_;
+};
+
+}  // namespace
+
+Status make_mipmap(const MipmapSettings& settings, std::unique_ptr<Method>* method) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (Status s = validate(settings.falloff); !s.ok()) return s;
+  math::Rho rho;
+  if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;
+  *method = std::make_unique<MipmapMethod>(settings, std::move(rho));
+  return {};
+}
+
+}  // namespace obscura

@@ -1,0 +1,16 @@
+#ifndef OBSCURA_SRC_SCREEN_MIPMAP_MIPMAP_H_
+#define OBSCURA_SRC_SCREEN_MIPMAP_MIPMAP_H_
+
+#include <memory>
+
+#include "obscura/mipmap.h"
+#include "screen/method.h"
+
+namespace obscura {
+
+// Ambient obscurance from a depth pyramid; settings and paper: obscura/mipmap.h.
+Status make_mipmap(const MipmapSettings& settings, std::unique_ptr<Method>* method);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_SCREEN_MIPMAP_MIPMAP_H_

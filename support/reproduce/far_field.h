@@ -1,0 +1,16 @@
+#ifndef OBSCURA_SUPPORT_REPRODUCE_FAR_FIELD_H_
+#define OBSCURA_SUPPORT_REPRODUCE_FAR_FIELD_H_
+
+#include "support/reproduce/reproduce.h"
+
+// The tables and figures of far-field ambient obscurance (Timonen 2013), measured again.
+namespace obscura::support {
+
+Status reproduce_ffao_table1(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_ffao_table3(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_ffao_fig7(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_error_vs_time(const ReproduceContext& context, Report* report, std::string* text);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_REPRODUCE_FAR_FIELD_H_

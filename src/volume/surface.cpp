@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <new>
 #include <vector>
 
@@ -137,6 +136,7 @@ class Renderer {
     std::vector<float> numbers;
     std::vector<SurfacePoint> points;
     std::vector<float> light;
+    Status failure;
   };
 
   Status block(int block, Scratch& s) const {
@@ -291,25 +291,21 @@ Status render_surface(const SurfaceScene& scene, const SurfaceCamera& camera,
   std::vector<Renderer::Scratch> scratch(static_cast<std::size_t>(executor.thread_count()));
   const int blocks = (height + kBlockRows - 1) / kBlockRows;
   Progress progress(blocks, run.progress);
-  std::mutex mutex;
-  Status failure;
   std::atomic<bool> failed{false};
   executor.parallel_for(blocks, [&](int block, int worker) {
     if (progress.cancelled() || failed) return;
-    Status status;
+    Renderer::Scratch& mine = scratch[static_cast<std::size_t>(worker)];
     try {
-      status = renderer.block(block, scratch[static_cast<std::size_t>(worker)]);
+      mine.failure = renderer.block(block, mine);
     } catch (const std::bad_alloc&) {
-      status = {StatusCode::kOutOfMemory, "out of memory while rendering; use fewer samples"};
+      mine.failure = {StatusCode::kOutOfMemory, "out of memory while rendering; use fewer samples"};
     }
-    if (!status.ok()) {
-      const std::lock_guard lock(mutex);
-      if (failure.ok()) failure = status;
-      failed = true;
-    }
+    if (!mine.failure.ok()) failed = true;
     progress.advance();
   });
-  if (!failure.ok()) return failure;
+  for (const Renderer::Scratch& s : scratch) {
+    if (!s.failure.ok()) return s.failure;
+  }
   if (progress.cancelled()) {
     return {StatusCode::kCancelled, "the rendering was cancelled by the caller"};
   }

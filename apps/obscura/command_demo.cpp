@@ -136,7 +136,8 @@ void add_demo(App& app) {
   auto c = std::make_shared<DemoCommand>();
   CLI::App* command = app.add_command(
       "demo",
-      "Render hall and meadow: depth, normals and visibility as PNG, a line of figures each",
+      "Render hall and meadow by the default method and by ray tracing (64 rays per pixel): "
+      "pictures of both, of the error, depth and normals; a line of figures each",
       [c, &app] { return run_demo(*c, app.quiet); });
   command->add_option("-o,--output", c->folder, "Folder for the pictures [default demo]")
       ->type_name("FOLDER");

@@ -34,6 +34,22 @@ TEST_F(CommandTest, SceneGBufferAndFileGiveTheSamePicture) {
   EXPECT_GT(c.correlation, 0.9999);
 }
 
+TEST_F(CommandTest, BackDepthAndLayersPassThroughAFile) {
+  expect_success("gbuffer 'scene:tower?size=64x36&layers=2&back-depth=1' -o g.exr");
+  for (const std::string occluder : {"back-depth", "layers:2"}) {
+    const std::string method = " --method ray-traced --rays 16 --occluder " + occluder;
+    expect_success("ao g.exr" + method + " -o a.pfm");
+    expect_success("ao 'scene:tower?size=64x36'" + method + " -o b.pfm");
+    Image a, b;
+    ASSERT_TRUE(support::read_image(path("a.pfm"), &a).ok());
+    ASSERT_TRUE(support::read_image(path("b.pfm"), &b).ok());
+    support::Comparison c;
+    ASSERT_TRUE(support::compare(a.view(0), b.view(0), {}, &c).ok());
+    EXPECT_LT(c.e_a, 0.2) << occluder;  // the camera passes through single-precision matrices
+  }
+  expect_failure("ao g.exr --method ray-traced --occluder layers:3 -o x.pfm", 3, "layers");
+}
+
 TEST_F(CommandTest, AnyThreadCountGivesTheSameBytes) {
   expect_success("ao 'scene:meadow?size=96x54' --method line --threads 1 -o a.pfm");
   expect_success("ao 'scene:meadow?size=96x54' --method line --threads 3 -o b.pfm");

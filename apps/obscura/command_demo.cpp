@@ -19,7 +19,7 @@ namespace {
 constexpr int kTruthRays = 64;
 
 struct DemoCommand {
-  std::string folder = "demo", json;
+  std::string folder = "demo", json, size = "640x360";
   int threads = 0;
 };
 
@@ -77,7 +77,7 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
                   support::Report* report) {
   const auto executor = make_executor(c.threads);
   LoadedInput input;
-  const std::string spec = "scene:" + name;
+  const std::string spec = fmt::format("scene:{}?size={}", name, c.size);
   if (Status s = support::load_scene(spec, {}, *executor, &input.rendering); !s.ok()) return s;
   input.rendering.gbuffer.name = spec;
   const DepthField field = input.field();
@@ -124,7 +124,7 @@ Status run_demo(const DemoCommand& c, bool quiet) {
             fmt::format("cannot make the folder {}: {}", c.folder, error.message())};
   }
   support::Report report;
-  report.settings = {{"method", kDefaultMethod}, {"rays", kTruthRays}, {"size", "640x360"}};
+  report.settings = {{"method", kDefaultMethod}, {"rays", kTruthRays}, {"size", c.size}};
   if (Status s = demo_scene(c, "hall", 0.1, quiet, &report); !s.ok()) return s;
   if (Status s = demo_scene(c, "meadow", 0.05, quiet, &report); !s.ok()) return s;
   return write_json(report, c.json);
@@ -141,6 +141,8 @@ void add_demo(App& app) {
       [c, &app] { return run_demo(*c, app.quiet); });
   command->add_option("-o,--output", c->folder, "Folder for the pictures [default demo]")
       ->type_name("FOLDER");
+  command->add_option("--size", c->size, "Size of the pictures [default 640x360]")
+      ->type_name("WIDTHxHEIGHT");
   add_threads_option(command, &c->threads);
   command->add_option("--json", c->json, "Write the figures as JSON; - is standard output")
       ->type_name("FILE");

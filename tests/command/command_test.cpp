@@ -231,7 +231,7 @@ TEST_F(CommandTest, InfoDescribesAFile) {
 }
 
 TEST_F(CommandTest, DemoWritesItsPictures) {
-  expect_success("demo -q -o pictures");
+  expect_success("demo -q --size 96x54 -o pictures");
   for (const char* name : {"hall-visibility.png", "meadow-visibility.png"}) {
     Image image;
     EXPECT_TRUE(support::read_image(path(std::string("pictures/") + name), &image).ok()) << name;

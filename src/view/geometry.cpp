@@ -60,6 +60,9 @@ Status check(const DepthField& field, const Needs& needs) {
       if (Status s = check_same_size(*n, field, "normals"); !s.ok()) return s;
     }
   }
+  if (field.normal_use == NormalUse::kNone && needs.normals && !needs.works_without_normals) {
+    return unsupported("normals are switched off; this method needs them");
+  }
   if (needs.back_depth) {
     if (Status s = check_same_size(field.back_depth, field, "back_depth"); !s.ok()) return s;
   }

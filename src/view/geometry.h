@@ -36,6 +36,7 @@ struct Needs {
   bool normals = false;
   bool back_depth = false;
   int layers = 0;
+  bool works_without_normals = false;  // NormalUse::kNone is allowed
 };
 
 // Checks a depth field and converts it, reusing the storage of `geometry`.

@@ -28,7 +28,7 @@ class AreaMethod final : public Method {
     pyramid_.resize(width, height);
   }
 
-  view::Needs needs() const override { return {.normals = true}; }
+  view::Needs needs() const override { return {.normals = true, .works_without_normals = true}; }
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};

@@ -37,7 +37,7 @@ class PointMethod final : public Method {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed, !screen_);
   }
 
-  view::Needs needs() const override { return {.normals = true}; }
+  view::Needs needs() const override { return {.normals = true, .works_without_normals = true}; }
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};

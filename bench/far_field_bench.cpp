@@ -76,7 +76,9 @@ void far_field_scan(benchmark::State& state) {
   const support::DepthInput input = guarded(width, height);
   const auto executor = make_executor(static_cast<int>(state.range(0)));
   view::Geometry geometry;
-  if (!view::convert(input.field(), {.normals = true}, *executor, &geometry).ok()) {
+  if (!view::convert(input.field(), {.normals = true, .works_without_normals = true}, *executor,
+                     &geometry)
+           .ok()) {
     return state.SkipWithError("the input was refused");
   }
   FarFieldSettings settings;

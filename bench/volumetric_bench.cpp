@@ -40,7 +40,10 @@ std::unique_ptr<Setup> make_setup(bool normals, int threads, int width, int heig
   s->executor = make_executor(threads);
   DepthField field = s->input.field();
   field.normal_use = normals ? NormalUse::kAuto : NormalUse::kNone;
-  if (!view::convert(field, {.normals = true}, *s->executor, &s->geometry).ok()) return nullptr;
+  if (!view::convert(field, {.normals = true, .works_without_normals = true}, *s->executor,
+                     &s->geometry)
+           .ok())
+    return nullptr;
   s->result.resize(static_cast<std::size_t>(width) * height);
   s->outputs.visibility = {s->result.data(), width, height};
   s->radius = static_cast<float>(kRadiusOfScene * s->input.scene_size);

@@ -50,7 +50,9 @@ TEST(VolumeIntegral, ThirtyTwoLinesAgreeWithinOnePerCent) {
     ASSERT_TRUE(support::load_scene(std::string("scene:") + name + "?size=320x180", &input).ok());
     const DepthField field = input.field();
     view::Geometry g;
-    ASSERT_TRUE(view::convert(field, {.normals = true}, *make_executor(1), &g).ok());
+    ASSERT_TRUE(view::convert(field, {.normals = true, .works_without_normals = true},
+                              *make_executor(1), &g)
+                    .ok());
     for (const double share : {0.02, 0.1}) {
       LineSettings s;
       s.falloff.radius = static_cast<float>(share * input.scene_size);

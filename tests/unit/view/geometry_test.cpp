@@ -39,7 +39,8 @@ std::vector<float> render(const Plane& plane, const Camera& camera, int w, int h
 
 class GeometryTest : public testing::Test {
  protected:
-  Status run(const DepthField& field, const Needs& needs = {.normals = true}) {
+  Status run(const DepthField& field,
+             const Needs& needs = {.normals = true, .works_without_normals = true}) {
     return convert(field, needs, *executor_, &geometry_);
   }
   std::unique_ptr<Executor> executor_ = make_executor(2);
@@ -197,7 +198,7 @@ TEST_F(GeometryTest, WrongShapesAreNamed) {
   DepthField good{.depth = {depth.data(), 4, 3}, .camera = Camera::perspective(1, 4, 3)};
   EXPECT_TRUE(run(good).ok());
   EXPECT_FALSE(run({}).ok());
-  auto message = [&](DepthField f, Needs needs = {.normals = true}) {
+  auto message = [&](DepthField f, Needs needs = {.normals = true, .works_without_normals = true}) {
     const Status s = run(f, needs);
     EXPECT_FALSE(s.ok());
     return s.message();

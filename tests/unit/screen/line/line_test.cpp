@@ -76,7 +76,8 @@ TEST(Line, EveryTargetAgreesWithScalar) {
     if (c.thickness) s.occluder = Occluder::of_thickness(0.3f);
 
     view::Geometry g;
-    ASSERT_TRUE(view::convert(field, {.normals = true}, *executor, &g).ok());
+    ASSERT_TRUE(
+        view::convert(field, {.normals = true, .works_without_normals = true}, *executor, &g).ok());
     const reference::Line reference(g, s, disk_pattern(s.samples, false));
     std::vector<double> expected;
     double sum = 0;
@@ -112,7 +113,8 @@ std::vector<float> run(const DepthField& field, const LineSettings& s,
                        std::span<const DiskSample> pattern) {
   std::unique_ptr<Executor> executor = make_executor(1);
   view::Geometry g;
-  EXPECT_TRUE(view::convert(field, {.normals = true}, *executor, &g).ok());
+  EXPECT_TRUE(
+      view::convert(field, {.normals = true, .works_without_normals = true}, *executor, &g).ok());
   std::unique_ptr<Method> method;
   EXPECT_TRUE(make_line_with(s, pattern, &method).ok());
   std::vector<float> result(static_cast<std::size_t>(g.visible_width()) * g.visible_height());

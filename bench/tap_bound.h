@@ -19,8 +19,8 @@ using RowTaps = std::function<void(int row, std::vector<std::int32_t>* index)>;
 double thread_seconds();
 
 // The least time that any method with these taps needs: median, over `runs`, of the
-// thread_seconds() it takes to load each tap of each row once, lane by lane as the kernels do, on
-// one thread.
+// thread_seconds() it takes to load each tap of each row once, lane by lane as the kernels do and
+// with warm caches, on one thread.
 double tap_bound_seconds(const float* base, int rows, int runs, const RowTaps& taps);
 
 }  // namespace obscura::bench

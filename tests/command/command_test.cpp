@@ -145,9 +145,9 @@ TEST_F(CommandTest, UsageMistakesAreNamed) {
   expect_failure("ao scene:hull -o x.exr", 2, "hull");
   expect_failure("ao 'scene:hall?colour=red' -o x.exr", 2, "colour");
   for (const char* method : {"far-field", "ray-traced", "hemisphere", "mipmap"}) {
-    expect_failure(std::string("ao 'scene:plane?size=16x16' --normals none -o x.exr --method ") +
-                       method,
-                   2, "needs them");
+    expect_failure(
+        std::string("ao 'scene:plane?size=16x16' --normals none -o x.exr --method ") + method, 2,
+        "needs them");
   }
   expect_failure("ao scene:hall --near 1 -o x.exr", 2, "--near does not apply");
   expect_failure("ao scene:hall --keep-channels -o x.exr", 2, "--keep-channels");

@@ -12,7 +12,7 @@ int main() {
   }
   obscura::DepthField field{.depth = {depth.data(), width, height},
                             .camera = obscura::Camera::perspective(0.9f, width, height)};
-  obscura::LineSettings settings{.samples = 9};
+  obscura::FarFieldSettings settings;
   settings.falloff.radius = 0.5f;
   const obscura::Status status =
       obscura::compute(field, settings, {.visibility = {visibility.data(), width, height}});

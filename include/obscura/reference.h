@@ -30,7 +30,7 @@ struct ReferenceSettings {
   int every = 1;                                   // trace every n-th pixel of every n-th row
   bool interpolate = false;                        // fill the others from them; else they are NaN
   float beyond_border = 0;  // world units; 0: rays that leave the image see nothing
-  float offset_px = 0;  // pixels; 0: 0.001 towards the camera, or 3 along the normal unless solid
+  float offset_px = 0;      // pixels; 0: see its help below
   std::uint32_t seed = 1;
   // C++ only: RGB radiance from a unit direction in eye space, for Outputs::radiance. Called from
   // several threads.
@@ -50,7 +50,8 @@ void visit_fields(Self& s, Visitor&& v) {
                            "never."});
   v(s.offset_px, Field{"offset_px", "pixels", closed(0, 64),
                        "Distance of the rays' start from the surface, towards the camera for solid "
-                       "occluders and along the normal for others; 0: 0.001 and 3."});
+                       "occluders and along the normal for others; 0: 0.001 for solid, 3 for "
+                       "thickness, 1 for back-depth and layers."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
 

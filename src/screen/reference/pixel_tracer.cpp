@@ -6,7 +6,14 @@
 namespace obscura {
 namespace {
 
-constexpr float kSurfaceOffset = 0.001f, kMatterOffset = 3;  // pixels
+// Pixels. A fixed thickness makes stairs of every slope, which would darken it; known extents are
+// true to their own texels, and 1 px is closer to the real geometry than 3 (docs/methods).
+constexpr float kSurfaceOffset = 0.001f, kThicknessOffset = 3, kExtentOffset = 1;
+float default_offset(OccluderKind kind) {
+  if (kind == OccluderKind::kSolid) return kSurfaceOffset;
+  return kind == OccluderKind::kThickness ? kThicknessOffset : kExtentOffset;
+}
+
 // A slab holds at least this many rays of each net: fewer would say nothing of their joint noise.
 constexpr int kRaysPerSlab = 16;
 
@@ -52,7 +59,7 @@ Receiver make_receiver(const PixelTracer::Frame& f, Pixel pixel) {
       std::sqrt(static_cast<double>(c.scale_x) * c.scale_y) * (c.orthographic ? 1 : z);
   const bool boxes = f.scene->boxes;
   const double pixels =
-      f.settings->offset_px > 0 ? f.settings->offset_px : (boxes ? kMatterOffset : kSurfaceOffset);
+      f.settings->offset_px > 0 ? f.settings->offset_px : default_offset(f.settings->occluder.kind);
   double offset = pixels * pixel_size;
   // A step out of the surface by `offset`: along the normal, or along the view ray, which leaves
   // the pixel where it is. Never farther than half way to the camera.

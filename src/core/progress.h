@@ -19,7 +19,10 @@ class Progress {
   bool advance(std::int64_t amount = 1) {
     const std::int64_t done = done_.fetch_add(amount, std::memory_order_relaxed) + amount;
     if (callback_ && mutex_.try_lock()) {
-      if (!callback_(static_cast<double>(done) / static_cast<double>(total_))) cancelled_ = true;
+      // Not again once it has said stop, also by a thread that was waiting at this door.
+      if (!cancelled() && !callback_(static_cast<double>(done) / static_cast<double>(total_))) {
+        cancelled_ = true;
+      }
       mutex_.unlock();
     }
     return !cancelled();

@@ -87,14 +87,14 @@ void far_field_scan(benchmark::State& state) {
   const int margin = far_field::sideways_reach(directions, interval) + 32;
   far_field::Plane planes[2];
   for (int i = 0; i < 2; ++i) {
-    far_field::fill_plane(geometry, settings.occluder, i == 1, margin, *executor, &planes[i]);
+    far_field::fill_plane(geometry, settings.occluder, i == 1, margin, 1, *executor, &planes[i]);
   }
   far_field::ScanBuffer buffer;
   std::size_t largest = 0, all = 0;
   for (auto _ : state) {
     all = 0;
     for (const far_field::Direction& d : directions) {
-      far_field::scan(planes[d.transposed], d, interval, -1, *executor, &buffer);
+      far_field::scan(planes[d.transposed], d, {interval, -1, 1}, *executor, &buffer);
       largest = std::max(largest, buffer.bytes());
       all += buffer.bytes();
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "obscura/cone.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
 
@@ -57,6 +58,11 @@ struct FarFieldSettings {
   int receiver_slope = -1;                            // [-1, 1], not 0: of the second height
   NearStep near_step{.px = 0.5f};                     // px, or adaptive
   bool near_field = true;                             // false: the far field alone
+  int separable = 1;    // 1, or 3: 3x3 pixels share the far field's directions (K a multiple of 9)
+  bool jitter = false;  // turns the segments from pixel to pixel of 3x3 within their width
+  bool blur = true;     // selective, 5x5; with separable 3 or jitter
+  int line_step = 1;    // [1, 4] every n-th line is scanned
+  ConeEstimate cone = ConeEstimate::kExact;
 };
 template <FieldsOf<FarFieldSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -75,6 +81,13 @@ void visit_fields(Self& s, Visitor&& v) {
                             "Slope, -1 or 1, at which the second height is taken."});
   v(s.near_step, Field{"near_step", "pixels", {}, "Step of the near field's direct samples."});
   v(s.near_field, Field{"near_field", "", {}, "Sample the near field; off: the far field alone."});
+  v(s.separable, Field{"separable", "pixels", closed(1, 3),
+                       "3: each pixel of a 3x3 group sees the far field in a ninth of the "
+                       "directions; 1: in all."});
+  v(s.jitter, Field{"jitter", "", {}, "Turns segments from pixel to pixel within their width."});
+  v(s.blur, Field{"blur", "", {}, "Selective 5x5 blur after separable evaluation or jitter."});
+  v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Every n-th line is scanned."});
+  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
 }
 
 }  // namespace obscura

@@ -18,24 +18,27 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 
+// A clipped direction and its place on the scale of sectors, 0 to 32.
+template <class V>
+struct SectorEdge {
+  V sine, cosine, angle, place;
+};
+
 template <class D>
 struct Sectors {
   using V = hwy::HWY_NAMESPACE::Vec<D>;
   using M = hwy::HWY_NAMESPACE::Mask<D>;
   using VU = hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::RebindToUnsigned<D>>;
   VU covered;
-  V first, span;           // F where the hemisphere begins, and over it
-  V x, y, depth, back;     // the point before: its place, and where its matter begins and ends
-  V sine, cosine, covers;  // its direction, clipped, and sector
-  M joined;                // there is a point before
+  V first, span;        // F where the hemisphere begins, and over it
+  V x, y, depth, back;  // the point before: its place, and where its matter begins and ends
+  SectorEdge<V> last;   // its direction
+  M joined;             // there is a point before
   V sum;
+  V sum_x, sum_y, sum_solid;  // directions, see SliceSums
+  SectorEdge<V> top;          // for them: nearest to the zenith so far
 };
 
-// A clipped direction and its place on the scale of sectors, 0 to 32.
-template <class V>
-struct SectorEdge {
-  V sine, cosine, place;
-};
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE SectorEdge<V> FindSector(D d, const Slice<V>& s, const Sectors<D>& m, V x, V y) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -44,11 +47,13 @@ HWY_INLINE SectorEdge<V> FindSector(D d, const Slice<V>& s, const Sectors<D>& m,
   const V inverse = FastInverseSqrt(d, square);
   const V c = hn::Min(hn::Max(hn::Mul(y, inverse), hn::Neg(one)), one);
   const V sine = hn::Mul(x, inverse);
-  const V own = CosineIntegral(d, s.nz, s.nt, sine, c, FastAcos(d, c));
+  const V angle = FastAcos(d, c);
+  const V own = CosineIntegral(d, s.nz, s.nt, sine, c, angle);
   const auto clipped = hn::Xor(hn::Lt(s.nz, hn::Zero(d)), hn::Le(c, s.edge_cosine));
   const V f = hn::IfThenElse(clipped, s.edge_integral, own);
   const V unit = hn::Mul(hn::Sub(f, m.first), FastReciprocal(d, m.span));
   return {hn::IfThenElse(clipped, s.edge_sine, sine), hn::IfThenElse(clipped, s.edge_cosine, c),
+          hn::IfThenElse(clipped, s.edge_angle, angle),
           hn::Mul(hn::Set(d, 32.0f), hn::Min(hn::Max(unit, hn::Zero(d)), one))};
 }
 
@@ -62,23 +67,60 @@ HWY_INLINE Sectors<D> StartSectors(D d, const Slice<V>& s, bool from_receiver, V
   m.first = hn::IfThenElse(away, s.edge_integral, zero);
   const V end = hn::IfThenElse(away, hn::Mul(s.nt, hn::Set(d, 1.57079633f)), s.edge_integral);
   m.span = hn::Max(hn::Sub(end, m.first), hn::Set(d, 1e-12f));
-  m.x = m.y = m.sum = zero;
+  m.x = m.y = m.sum = m.sum_x = m.sum_y = m.sum_solid = zero;
   m.depth = depth;
   m.back = back;
   // What joins the receiver's own surface fills the slice down to its end.
-  m.sine = hn::IfThenElse(away, zero, s.edge_sine);
-  m.cosine = hn::IfThenElse(away, hn::Set(d, -1.0f), s.edge_cosine);
-  m.covers = hn::Set(d, 32.0f);
+  m.last = {hn::IfThenElse(away, zero, s.edge_sine),
+            hn::IfThenElse(away, hn::Set(d, -1.0f), s.edge_cosine),
+            hn::IfThenElse(away, hn::Set(d, 3.14159265f), s.edge_angle), hn::Set(d, 32.0f)};
+  m.top = m.last;
   m.joined = from_receiver ? hn::Ge(zero, zero) : hn::Lt(zero, zero);
   return m;
+}
+
+template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>, class M = hwy::HWY_NAMESPACE::Mask<D>>
+HWY_INLINE SectorEdge<V> SelectEdge(D, M mask, const SectorEdge<V>& yes, const SectorEdge<V>& no) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  return {hn::IfThenElse(mask, yes.sine, no.sine), hn::IfThenElse(mask, yes.cosine, no.cosine),
+          hn::IfThenElse(mask, yes.angle, no.angle), hn::IfThenElse(mask, yes.place, no.place)};
+}
+
+// Directions between two edges, per unit of the obscurance between them: of the whole piece, or at
+// its middle where it is so thin that differences are noise.
+template <SliceSums kSums, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE void DirectionsBetween(D d, const Slice<V>& s, const SectorEdge<V>& low,
+                                  const SectorEdge<V>& high, V& x, V& y, V& solid) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const V tiny = hn::Set(d, 1e-30f);
+  V mx = hn::Add(low.sine, high.sine), my = hn::Add(low.cosine, high.cosine);
+  const V length =
+      FastInverseSqrt(d, hn::Max(hn::MulAdd(mx, mx, hn::Mul(my, my)), hn::Set(d, 1e-12f)));
+  mx = hn::Mul(mx, length);
+  my = hn::Mul(my, length);
+  V scale = hn::Set(d, 1.0f);
+  if constexpr (kSums == SliceSums::kUniform) {
+    const V lobe = hn::MulAdd(s.nz, my, hn::Mul(s.nt, mx));
+    scale = FastReciprocal(d, hn::Max(lobe, hn::Set(d, 0.05f)));
+  }
+  V low_x, low_y, high_x, high_y;
+  DirectionIntegral<kSums>(d, s.nz, s.nt, low.sine, low.cosine, low.angle, low_x, low_y);
+  DirectionIntegral<kSums>(d, s.nz, s.nt, high.sine, high.cosine, high.angle, high_x, high_y);
+  const V between = hn::Sub(CosineIntegral(d, s.nz, s.nt, high.sine, high.cosine, high.angle),
+                            CosineIntegral(d, s.nz, s.nt, low.sine, low.cosine, low.angle));
+  const auto thin = hn::Lt(between, hn::Set(d, 1e-3f));
+  const V inverse = FastReciprocal(d, hn::Max(between, tiny));
+  x = hn::IfThenElse(thin, hn::Mul(mx, scale), hn::Mul(hn::Sub(high_x, low_x), inverse));
+  y = hn::IfThenElse(thin, hn::Mul(my, scale), hn::Mul(hn::Sub(high_y, low_y), inverse));
+  solid = hn::IfThenElse(thin, scale, hn::Mul(hn::Sub(low.cosine, high.cosine), inverse));
 }
 
 // Adds the next point outwards: matter on its view ray from depth `depth` to `back`, `(bx, by)`
 // being the place of its end. It fills what is between them, and where it touches the matter of the
 // point before (within `slack` of depth), what is between the two points. `dither` in [-0.5, 0.5)
 // moves the rounding of edges to sectors, so that many slices round without bias.
-template <FalloffKind kKind, class D, class V = hwy::HWY_NAMESPACE::Vec<D>,
-          class M = hwy::HWY_NAMESPACE::Mask<D>>
+template <FalloffKind kKind, SliceSums kSums = SliceSums::kVisibility, class D,
+          class V = hwy::HWY_NAMESPACE::Vec<D>, class M = hwy::HWY_NAMESPACE::Mask<D>>
 HWY_INLINE void AddMatter(D d, const math::Rho& rho, const Slice<V>& s, V x, V y, V bx, V by,
                           V depth, V back, V slack, float dither, M valid, Sectors<D>& m) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -90,13 +132,8 @@ HWY_INLINE void AddMatter(D d, const math::Rho& rho, const Slice<V>& s, V x, V y
   SectorEdge<V> high = FindSector(d, s, m, bx, by);
   const V gap = hn::Sub(hn::Max(depth, m.depth), hn::Min(back, m.back));
   const M joined = hn::And(m.joined, hn::Le(gap, slack));
-  auto widen = [&](M where, SectorEdge<V>& edge) HWY_ATTR {
-    edge.sine = hn::IfThenElse(where, m.sine, edge.sine);
-    edge.cosine = hn::IfThenElse(where, m.cosine, edge.cosine);
-    edge.place = hn::IfThenElse(where, m.covers, edge.place);
-  };
-  widen(hn::And(joined, hn::Lt(m.covers, low.place)), low);
-  widen(hn::And(joined, hn::Gt(m.covers, high.place)), high);
+  low = SelectEdge(d, hn::And(joined, hn::Lt(m.last.place, low.place)), m.last, low);
+  high = SelectEdge(d, hn::And(joined, hn::Gt(m.last.place, high.place)), m.last, high);
   // Bits [i, j) as the difference of two masks of low bits; a shift by 32 would be undefined.
   auto below = [&](V place) HWY_ATTR {
     const auto i = hn::NearestInt(hn::Add(place, hn::Set(d, dither)));
@@ -128,17 +165,28 @@ HWY_INLINE void AddMatter(D d, const math::Rho& rho, const Slice<V>& s, V x, V y
           d, rho, hn::Min(hn::Mul(numerator, FastReciprocal(d, denominator)), hn::Set(d, 1e30f)));
     };
     const V mean = hn::Mul(hn::Set(d, 0.5f / 32), hn::Add(rho_at(0.25f), rho_at(0.75f)));
-    const V piece = hn::Mul(hn::Mul(count, m.span), mean);
-    m.sum = hn::Add(m.sum, hn::IfThenElse(hn::Gt(count, zero), piece, zero));
+    const V piece =
+        hn::IfThenElse(hn::Gt(count, zero), hn::Mul(hn::Mul(count, m.span), mean), zero);
+    m.sum = hn::Add(m.sum, piece);
+    if constexpr (kSums != SliceSums::kVisibility) {
+      // What reaches above all before is new above that only.
+      const M above = hn::And(hn::Lt(low.place, m.top.place), hn::Gt(high.place, m.top.place));
+      V wx, wy, solid;
+      DirectionsBetween<kSums>(d, s, low, SelectEdge(d, above, m.top, high), wx, wy, solid);
+      m.sum_x = hn::MulAdd(piece, wx, m.sum_x);
+      m.sum_y = hn::MulAdd(piece, wy, m.sum_y);
+      m.sum_solid = hn::MulAdd(piece, solid, m.sum_solid);
+    }
     m.covered = hn::Or(m.covered, hn::BitCast(du, fresh));
   }
   m.x = hn::IfThenElse(valid, x, m.x);
   m.y = hn::IfThenElse(valid, y, m.y);
   m.depth = hn::IfThenElse(valid, depth, m.depth);
   m.back = hn::IfThenElse(valid, back, m.back);
-  m.sine = hn::IfThenElse(valid, front.sine, m.sine);
-  m.cosine = hn::IfThenElse(valid, front.cosine, m.cosine);
-  m.covers = hn::IfThenElse(valid, front.place, m.covers);
+  m.last = SelectEdge(d, valid, front, m.last);
+  if constexpr (kSums != SliceSums::kVisibility) {
+    m.top = SelectEdge(d, hn::And(valid, hn::Lt(low.place, m.top.place)), low, m.top);
+  }
   m.joined = valid;
 }
 

@@ -16,6 +16,7 @@
 #include "hwy/highway.h"
 #include "math/falloff-inl.h"
 #include "math/fast-inl.h"
+#include "math/slice_sums.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -38,6 +39,24 @@ HWY_INLINE V CosineIntegral(D d, V nz, V nt, V sine, V cosine, V angle) {
   const V a = hn::Mul(nz, hn::Mul(sine, sine));
   const V b = hn::Mul(nt, hn::NegMulAdd(sine, cosine, angle));
   return hn::Mul(hn::Set(d, 0.5f), hn::Add(a, b));
+}
+
+// Antiderivatives at theta of the summed directions, along the tangent and the zenith, each times
+// sin theta, the width of the slice.
+template <SliceSums kSums, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE void DirectionIntegral(D d, V nz, V nt, V sine, V cosine, V angle, V& x, V& y) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  if constexpr (kSums == SliceSums::kUniform) {
+    const V half = hn::Set(d, 0.5f);
+    x = hn::Mul(half, hn::NegMulAdd(sine, cosine, angle));
+    y = hn::Mul(half, hn::Mul(sine, sine));
+  } else if constexpr (kSums == SliceSums::kCosine) {
+    const V third = hn::Set(d, 1.0f / 3);
+    const V s3 = hn::Mul(third, hn::Mul(sine, hn::Mul(sine, sine)));
+    const V c3 = hn::Mul(third, hn::Mul(cosine, hn::Mul(cosine, cosine)));
+    x = hn::MulAdd(nz, s3, hn::Mul(nt, hn::Sub(c3, cosine)));
+    y = hn::MulSub(nt, s3, hn::Mul(nz, c3));
+  }
 }
 
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
@@ -69,9 +88,12 @@ struct Horizon {
   V x, y;                       // the point before
   M chord;                      // the point before was visible
   V sum;                        // obscurance of the slice
+  // Directions, see SliceSums.
+  V integral_x, integral_y;   // at the clipped theta
+  V sum_x, sum_y, sum_solid;  // along the tangent, the zenith; solid angle
 };
 
-template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+template <SliceSums kSums = SliceSums::kVisibility, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE Horizon<D> StartHorizon(D d, const Slice<V>& s, bool from_receiver) {
   namespace hn = hwy::HWY_NAMESPACE;
   const V zero = hn::Zero(d), pi = hn::Set(d, 3.14159265f);
@@ -82,7 +104,9 @@ HWY_INLINE Horizon<D> StartHorizon(D d, const Slice<V>& s, bool from_receiver) {
   h.cosine_c = hn::IfThenElse(away, hn::Set(d, -1.0f), s.edge_cosine);
   h.angle_c = hn::IfThenElse(away, pi, s.edge_angle);
   h.integral = hn::IfThenElse(away, hn::Mul(s.nt, hn::Set(d, 1.57079633f)), s.edge_integral);
-  h.x = h.y = h.sum = zero;
+  h.x = h.y = h.sum = h.sum_x = h.sum_y = h.sum_solid = zero;
+  DirectionIntegral<kSums>(d, s.nz, s.nt, h.sine_c, h.cosine_c, h.angle_c, h.integral_x,
+                           h.integral_y);
   h.chord = from_receiver ? hn::Ge(zero, zero) : hn::Lt(zero, zero);
   return h;
 }
@@ -99,8 +123,8 @@ HWY_INLINE V RhoOf(D d, const math::Rho& rho, V distance) {
 
 // Adds the next point outwards. `share` is the part of the slice's width in which the point stands,
 // 1 unless kPartial: the rest stays open, and the horizon moves by that part only.
-template <FalloffKind kKind, bool kChord, bool kPartial, class D,
-          class V = hwy::HWY_NAMESPACE::Vec<D>, class M = hwy::HWY_NAMESPACE::Mask<D>>
+template <FalloffKind kKind, bool kChord, bool kPartial, SliceSums kSums = SliceSums::kVisibility,
+          class D, class V = hwy::HWY_NAMESPACE::Vec<D>, class M = hwy::HWY_NAMESPACE::Mask<D>>
 HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y, M valid, V share,
                          Horizon<D>& h) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -123,6 +147,8 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   V angle_c = hn::IfThenElse(clipped, s.edge_angle, angle);
   V integral =
       hn::IfThenElse(clipped, s.edge_integral, CosineIntegral(d, s.nz, s.nt, sine, c, angle));
+  V integral_x, integral_y;
+  DirectionIntegral<kSums>(d, s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
   const V weight = hn::IfThenElseZero(visible, hn::Max(hn::Sub(h.integral, integral), zero));
   if (!hn::AllFalse(d, hn::Gt(weight, zero))) {
     // rho averaged over the piece by three Gauss points, each with its share of the integral. The
@@ -156,9 +182,17 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
     node(mx, my, 8.0f / 9, weights, values);
     node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
          weights, values);
-    V piece = hn::Mul(hn::Mul(weight, values), FastReciprocal(d, weights));
-    if constexpr (kPartial) piece = hn::Mul(piece, share);
-    h.sum = hn::Add(h.sum, hn::IfThenElseZero(hn::Gt(weight, zero), piece));
+    V mean = hn::Mul(values, FastReciprocal(d, weights));
+    if constexpr (kPartial) mean = hn::Mul(mean, share);
+    mean = hn::IfThenElseZero(hn::Gt(weight, zero), mean);
+    h.sum = hn::MulAdd(weight, mean, h.sum);
+    if constexpr (kSums != SliceSums::kVisibility) {
+      h.sum_x = hn::MulAdd(mean, hn::Sub(h.integral_x, integral_x), h.sum_x);
+      h.sum_y = hn::MulAdd(mean, hn::Sub(h.integral_y, integral_y), h.sum_y);
+    }
+    if constexpr (kSums == SliceSums::kUniform) {
+      h.sum_solid = hn::MulAdd(mean, hn::Sub(cosine_c, h.cosine_c), h.sum_solid);
+    }
   }
   V new_cosine = c;
   if constexpr (kPartial) {
@@ -181,7 +215,12 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
           hn::IfThenElse(part, hn::IfThenElse(outside, s.edge_cosine, mean_cosine), cosine_c);
       angle_c = hn::IfThenElse(part, hn::IfThenElse(outside, s.edge_angle, mean), angle_c);
       integral = hn::IfThenElse(part, mean_integral, integral);
+      DirectionIntegral<kSums>(d, s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
     }
+  }
+  if constexpr (kSums != SliceSums::kVisibility) {
+    h.integral_x = hn::IfThenElse(visible, integral_x, h.integral_x);
+    h.integral_y = hn::IfThenElse(visible, integral_y, h.integral_y);
   }
   h.cosine = hn::IfThenElse(visible, new_cosine, h.cosine);
   h.sine_c = hn::IfThenElse(visible, sine_c, h.sine_c);

@@ -35,6 +35,13 @@ std::vector<NearTap> make_taps(const FarFieldSettings& s, double angle) {
   return taps;
 }
 
+Segment make_segment(const FarFieldSettings& s, double low, double width) {
+  return {.low = static_cast<float>(std::tan(low)),
+          .high = static_cast<float>(std::tan(low + width)),
+          .middle = static_cast<float>(std::tan(low + 0.5 * width)),
+          .taps = make_taps(s, low + 0.5 * width)};
+}
+
 // Strips of one direction are all cut at the same rows; directions that cut elsewhere keep that
 // from showing. Left and right directions share their phase, so that mirrored images are treated
 // alike.
@@ -60,15 +67,16 @@ std::vector<Direction> make_directions(const FarFieldSettings& s) {
     const double angle = std::atan2(d.transposed ? v : u, std::abs(d.transposed ? u : v));
     d.slope = static_cast<float>(std::tan(angle));
     d.phase = strip_phase(d.transposed, d.sign, angle, s.interval);
-    d.segments.resize(s.segments);
+    for (int cell = 0; cell < kCells; ++cell)
+      d.group = kCellOrder[cell] == k % kCells ? cell : d.group;
+    d.segments.resize(s.jitter ? kCells : 1);
     const double width = 2 * kPi / s.directions / s.segments;
-    for (int i = 0; i < s.segments; ++i) {
-      const double low = angle + width * (i - 0.5 * s.segments);
-      Segment& segment = d.segments[i];
-      segment.low = static_cast<float>(std::tan(low));
-      segment.high = static_cast<float>(std::tan(low + width));
-      segment.middle = static_cast<float>(std::tan(low + 0.5 * width));
-      segment.taps = make_taps(s, low + 0.5 * width);
+    for (std::size_t cell = 0; cell < d.segments.size(); ++cell) {
+      const double turn = s.jitter ? width * (kCellOrder[cell] - 0.5 * (kCells - 1)) / kCells : 0;
+      for (int i = 0; i < s.segments; ++i) {
+        d.segments[cell].push_back(
+            make_segment(s, angle + turn + width * (i - 0.5 * s.segments), width));
+      }
     }
   }
   return directions;
@@ -78,7 +86,9 @@ int sideways_reach(const std::vector<Direction>& directions, int interval) {
   double slope = 0;
   for (const Direction& d : directions) {
     slope = std::max<double>(slope, std::abs(d.slope));
-    for (const Segment& s : d.segments) slope = std::max<double>(slope, std::abs(s.middle));
+    for (const auto& segments : d.segments) {
+      for (const Segment& s : segments) slope = std::max<double>(slope, std::abs(s.middle));
+    }
   }
   return static_cast<int>(std::ceil(slope * 2 * interval)) + 2;
 }

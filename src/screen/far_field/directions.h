@@ -27,8 +27,19 @@ struct Direction {
   int sign = 1;
   float slope = 0;
   int phase = 0;  // rows by which the strips begin before the image
-  std::vector<Segment> segments;
+  int group = 0;  // of the separable evaluation: the cell that evaluates this direction
+  // One set of segments; where jittered, one per cell, each turned by its own angle.
+  std::vector<std::vector<Segment>> segments;
+
+  const std::vector<Segment>& segments_of(int cell) const {
+    return segments.size() == 1 ? segments[0] : segments[cell];
+  }
 };
+
+// Cells of 3x3 pixels share directions or jitter. The order is a magic square's, so that each row
+// and each column of cells has the same mean.
+inline constexpr int kCells = 9;
+inline constexpr int kCellOrder[kCells] = {1, 6, 5, 8, 4, 0, 3, 2, 7};
 
 // Rows from a receiver to its first interval lie in [interval, 2 interval).
 inline int longest_near_field(int interval) { return 2 * interval - 1; }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 
 #include "core/text.h"
 #include "screen/far_field/directions.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
 #include "screen/far_field/slices.h"
+#include "screen/far_field/totals.h"
 
 namespace obscura {
 
@@ -30,38 +31,41 @@ namespace far_field {
 namespace {
 
 constexpr int kRowsPerTask = 8;
-constexpr int kMaxIntervals = 64;
 
-// Which intervals a segment reads for the receivers of row `row` (counted outwards): the nearest is
-// at least one interval away; every second one climbs a level of the pyramid (section 6).
+// Which intervals a segment reads for the receivers of a row (`row` counted outwards): the nearest
+// is at least one interval away; every second one climbs a level of the pyramid (section 6). `u` is
+// the first receiver's.
 int list_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
-                   int interval, int row, bool finite, ScanBuffer* buffer, IntervalRead* reads) {
+                   int interval, int row, int u, bool finite, ScanBuffer* buffer,
+                   IntervalRead* reads) {
   int count = 0, level = 0;
   int strip = (row + direction.phase + 2 * interval - 1) / interval;
+  const int phases = buffer->phases();
+  // Of a line: its phase and its place among that phase's lines, also left of the first line.
+  auto phase_of = [&](int line) { return ((line % phases) + phases) % phases; };
+  auto place_of = [&](int line) { return (line - phase_of(line)) / phases; };
   while (strip < buffer->strips(level) && count < kMaxIntervals) {
     const double size = static_cast<double>(interval) * (1 << level);
     const double away = (strip + 0.5) * size - 0.5 - direction.phase - row;
-    const double shift = layout.shift(row + away);
-    int first = static_cast<int>(std::ceil(segment.low * away - shift));
-    int last = static_cast<int>(std::floor(segment.high * away - shift));
-    if (first > last) {
-      first = last = static_cast<int>(std::floor(segment.middle * away - shift + 0.5));
-    }
+    const double start = u - layout.shift(row + away);
+    auto line_at = [&](double slope) { return (slope * away + start) / layout.step; };
+    const int middle = static_cast<int>(std::floor(line_at(segment.middle) + 0.5));
+    int first = static_cast<int>(std::ceil(line_at(segment.low)));
+    int last = static_cast<int>(std::floor(line_at(segment.high)));
+    if (first > last) first = last = middle;
     IntervalRead& read = reads[count++];
-    read = {.sums = {},
-            .first = first,
-            .last = last + 1,
+    read = {.from = {},
+            .to = {},
+            .first = place_of(first),
+            .last = place_of(last + 1),
             .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
-            .nearest = nullptr,
-            .slanted = nullptr,
-            .deepest = nullptr,
-            .middle = static_cast<int>(std::floor(segment.middle * away - shift + 0.5))};
+            .line = {},
+            .middle = place_of(middle)};
     if (finite) {
-      read.nearest = buffer->nearest(level, strip);
-      read.slanted = buffer->slanted(level, strip);
-      read.deepest = buffer->deepest(level, strip);
+      read.line = buffer->raw(level, strip, phase_of(middle));
     } else {
-      read.sums = buffer->sums(level, strip);
+      read.from = buffer->sums(level, strip, phase_of(first));
+      read.to = buffer->sums(level, strip, phase_of(last + 1));
     }
     ++strip;
     if (strip % 2 == 0 && level + 1 < buffer->levels()) {
@@ -72,104 +76,234 @@ int list_intervals(const Direction& direction, const Segment& segment, const Lin
   return count;
 }
 
+// The near field's samples for receivers whose first is at texel u.
+void list_taps(const Plane& p, const Direction& direction, const Segment& segment, int u,
+               std::vector<TapRead>* taps) {
+  taps->clear();
+  for (const NearTap& tap : segment.taps) {
+    const std::ptrdiff_t step = direction.sign * p.lattice.stride();
+    const std::ptrdiff_t upper = tap.dv * step, lower = tap.wv > 0 ? upper + step : upper;
+    const std::ptrdiff_t left = p.lattice.offset(u + tap.du);
+    const std::ptrdiff_t right = p.lattice.offset(u + tap.du + 1);
+    taps->push_back({.upper = upper + left,
+                     .upper_next = upper + right,
+                     .lower = lower + left,
+                     .lower_next = lower + right,
+                     .nearest = (tap.wv >= 0.5f ? lower : upper) + (tap.wu >= 0.5f ? right : left),
+                     .wu = tap.wu,
+                     .wv = tap.wv,
+                     .along = tap.along});
+  }
+}
+
+// How many of them lie within `rows` rows outwards of a row (counted outwards) and in the image.
+int count_taps(const Segment& segment, int row, int rows, int height) {
+  int count = 0;
+  for (const NearTap& tap : segment.taps) {
+    if (tap.along >= rows || row + tap.dv + (tap.wv > 0 ? 1 : 0) >= height) break;
+    ++count;
+  }
+  return count;
+}
+
 // The same for a slice and its mirror image.
 float dither(const Direction& direction, const Segment& segment) {
   const double x = 5.3 * std::abs(segment.middle) + 0.37 * direction.transposed;
   return static_cast<float>(x - std::floor(x) - 0.5);
 }
 
+// Pixels that do alike lie this far apart along a row.
+int phases_of(const FarFieldSettings& s) {
+  return std::lcm(s.separable == 3 || s.jitter ? 3 : 1, s.line_step);
+}
+
 class FarFieldMethod final : public Method {
  public:
   FarFieldMethod(const FarFieldSettings& settings, math::Rho rho)
-      : settings_(settings), rho_(std::move(rho)), directions_(make_directions(settings)) {
-    margin_ = sideways_reach(directions_, settings.interval) + 2 * PrefixSums::kPadding;
-  }
+      : settings_(settings),
+        rho_(std::move(rho)),
+        directions_(make_directions(settings)),
+        phases_(phases_of(settings)),
+        margin_(sideways_reach(directions_, settings.interval) +
+                2 * PrefixSums::kPadding * phases_) {}
 
   view::Needs needs() const override {
     return {.normals = true, .back_depth = settings_.occluder.kind == OccluderKind::kBackDepth};
   }
+  OutputKinds output_kinds() const override {
+    return {
+        .bent_normal = true, .cone_angle = true, .uniform_integral = true, .cosine_integral = true};
+  }
 
-  Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
-    if (outputs.visibility.empty()) return {};
+  Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
+    wanted_ = {
+        .uniform = !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty(),
+        .cosine = !o.cosine_integral.empty()};
+    if (o.visibility.empty() && !wanted_.uniform && !wanted_.cosine) return {};
     Executor& executor = context.executor;
-    for (bool transposed : {false, true}) {
-      fill_plane(g, settings_.occluder, transposed, margin_, executor, &planes_[transposed]);
-    }
+    prepare(g, executor);
     Progress progress(static_cast<std::int64_t>(directions_.size()), context.progress);
+    const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
+                                     settings_.line_step};
     for (const Direction& direction : directions_) {
       Plane& plane = planes_[direction.transposed];
-      scan(plane, direction, settings_.interval, settings_.receiver_slope, executor, &buffer_);
+      scan(plane, direction, scan_settings, executor, &buffer_);
       evaluate(direction, executor, &plane);
       if (!progress.advance()) return {StatusCode::kCancelled, "stopped by the caller"};
     }
-    write(executor, outputs.visibility);
+    collect(planes_, &Plane::sums, wanted_, executor, &totals_);
+    if (separable()) {
+      collect(planes_, &Plane::far_sums, wanted_, executor, &spare_);
+      gather(groups_, spare_, wanted_, executor, &totals_);
+    }
+    if (grouped() && settings_.blur) {
+      blur_selectively(groups_, wanted_, executor, &totals_, &spare_);
+    }
+    finish(g, totals_, settings_.cone, executor, o);
     return {};
   }
 
  private:
+  bool separable() const { return settings_.separable == 3; }
+  bool grouped() const { return separable() || settings_.jitter; }
+
+  void prepare(const view::Geometry& g, Executor& executor) {
+    const ReceiverSource pixels{
+        &g.depth, {&g.normal_x, &g.normal_y, &g.normal_z}, g.guard_band.left, g.guard_band.top};
+    if (grouped()) average_groups(g, executor, &groups_);
+    const ReceiverSource means{
+        &groups_.depth, {&groups_.normal[0], &groups_.normal[1], &groups_.normal[2]}, 0, 0};
+    for (bool transposed : {false, true}) {
+      Plane& p = planes_[transposed];
+      fill_plane(g, settings_.occluder, transposed, margin_, phases_, executor, &p);
+      fill_receivers(pixels, p, transposed, executor, &p.own);
+      auto clear = [&](SumImages* sums) {
+        for (Channel c : wanted_.channels()) {
+          sums->clear(c, p.visible_width, p.visible_height, phases_, executor);
+        }
+      };
+      clear(&p.sums);
+      if (!separable()) continue;
+      fill_receivers(means, p, transposed, executor, &p.averaged);
+      clear(&p.far_sums);
+    }
+  }
+
+  // Cells are the image's, whichever way the plane lies.
+  static int cell_of(const Direction& direction, int row, int phase) {
+    return direction.transposed ? 3 * (phase % 3) + row % 3 : 3 * (row % 3) + phase % 3;
+  }
+  const std::vector<TapRead>& taps_of(int row, int phase, std::size_t segment) const {
+    return taps_[((settings_.jitter ? row % 3 : 0) * phases_ + phase) * settings_.segments +
+                 segment];
+  }
+  void prepare_taps(const Direction& direction, const Plane& p) {
+    const int row_cells = settings_.jitter ? 3 : 1;
+    taps_.resize(static_cast<std::size_t>(row_cells) * phases_ * settings_.segments);
+    auto taps = taps_.begin();
+    for (int row = 0; row < row_cells; ++row) {
+      for (int phase = 0; phase < phases_; ++phase) {
+        for (const Segment& segment : direction.segments_of(cell_of(direction, row, phase))) {
+          list_taps(p, direction, segment, phase + p.left, &*taps++);
+        }
+      }
+    }
+  }
+
   void evaluate(const Direction& direction, Executor& executor, Plane* plane) {
-    Plane& p = *plane;
-    const LineLayout layout(p, direction);
-    const int rows = p.visible_height;
+    const LineLayout layout(*plane, direction, settings_.line_step);
+    const int rows = plane->visible_height, phases = std::min(phases_, plane->visible_width);
+    prepare_taps(direction, *plane);
     executor.parallel_for((rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int) {
-      IntervalRead reads[kMaxIntervals];
-      for (int y = task * kRowsPerTask; y < std::min(rows, (task + 1) * kRowsPerTask); ++y) {
-        const int v = y + p.top, row = direction.sign > 0 ? v : p.height - 1 - v;
-        const int interval = settings_.interval;
-        const int first_strip = (row + direction.phase + 2 * interval - 1) / interval;
-        const int near_rows = std::min(first_strip * interval - direction.phase, p.height) - row;
-        for (const Segment& segment : direction.segments) {
-          SliceRow job{.plane = &p,
-                       .rho = &rho_,
-                       .chord = settings_.profile == SlabProfile::kAdaptiveChord,
-                       .partial = true,
-                       .sign = direction.sign,
-                       .row = y,
-                       .segment = &segment,
-                       .lines = layout.lines,
-                       .tap_count = 0,
-                       .intervals = reads,
-                       .interval_count = 0,
-                       .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
-                       .slack = join_slack(p),
-                       .dither = dither(direction, segment)};
-          while (job.tap_count < static_cast<int>(segment.taps.size())) {
-            const NearTap& tap = segment.taps[job.tap_count];
-            if (tap.along >= near_rows || row + tap.dv + (tap.wv > 0 ? 1 : 0) >= p.height) break;
-            ++job.tap_count;
-          }
-          job.interval_count =
-              list_intervals(direction, segment, layout, interval, row, p.finite, &buffer_, reads);
-          p.finite ? add_matter_slices(job, p.obscurance.row(y))
-                   : add_slices(job, p.obscurance.row(y));
+      const int end = std::min(rows, (task + 1) * kRowsPerTask);
+      for (int y = task * kRowsPerTask; y < end; ++y) {
+        for (int phase = 0; phase < phases; ++phase) {
+          evaluate_row(direction, layout, y, phase, plane);
         }
       }
     });
   }
 
-  void write(Executor& executor, const ImageView<float>& out) const {
-    const Plane& a = planes_[0];
-    const Plane& b = planes_[1];
-    constexpr int kTile = 32;
-    executor.parallel_for((out.height + kTile - 1) / kTile, [&](int task, int) {
-      const int y0 = task * kTile, y1 = std::min(out.height, y0 + kTile);
-      for (int x0 = 0; x0 < out.width; x0 += kTile) {
-        for (int y = y0; y < y1; ++y) {
-          for (int x = x0; x < std::min(out.width, x0 + kTile); ++x) {
-            const float sum = a.obscurance(x, y) + b.obscurance(y, x);
-            out(x, y) = std::clamp(1 - sum * std::numbers::inv_pi_v<float>, 0.0f, 1.0f);
-          }
-        }
+  void evaluate_row(const Direction& direction, const LineLayout& layout, int y, int phase,
+                    Plane* plane) {
+    Plane& p = *plane;
+    const int v = y + p.top, u = phase + p.left, row = direction.sign > 0 ? v : p.height - 1 - v;
+    const int interval = settings_.interval;
+    const int first_strip = (row + direction.phase + 2 * interval - 1) / interval;
+    const int near_rows = std::min(first_strip * interval - direction.phase, p.height) - row;
+    const int cell = cell_of(direction, y, phase);
+    const bool far = !separable() || direction.group == cell;
+    const std::vector<Segment>& segments = direction.segments_of(cell);
+    IntervalRead intervals[kMaxIntervals];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& segment = segments[i];
+      SliceRow job{.plane = &p,
+                   .receivers = &p.own,
+                   .rho = &rho_,
+                   .sums = SliceSums::kVisibility,
+                   .chord = settings_.profile == SlabProfile::kAdaptiveChord,
+                   .far_alone = false,
+                   .sign = direction.sign,
+                   .row = y,
+                   .column = phase,
+                   .count = (p.visible_width - phase + phases_ - 1) / phases_,
+                   .segment = &segment,
+                   .texels = p.lattice.row(v),
+                   .backs = p.finite ? p.back.row(v) : nullptr,
+                   .taps = taps_of(y, phase, i).data(),
+                   .tap_count = count_taps(segment, row, near_rows, p.height),
+                   .intervals = intervals,
+                   .interval_count = 0,
+                   .phase_lines = buffer_.phase_lines(),
+                   .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
+                   .slack = join_slack(p),
+                   .dither = dither(direction, segment),
+                   .out = {}};
+      if (far) {
+        job.interval_count = list_intervals(direction, segment, layout, interval, row, u, p.finite,
+                                            &buffer_, intervals);
       }
-    });
+      if (!separable()) {
+        add(job, &p.sums);
+        continue;
+      }
+      if (far) {
+        SliceRow shared = job;
+        shared.receivers = &p.averaged;
+        shared.far_alone = true;
+        add(shared, &p.far_sums);
+        job.interval_count = 0;
+      }
+      add(job, &p.sums);
+    }
+  }
+
+  // The sums that are wanted, in one run over the slice or in two.
+  void add(SliceRow job, SumImages* to) {
+    auto row = [&](int channel) { return to->channel[channel].at(job.row, job.column); };
+    auto run = [&](SliceSums sums, bool obscurance, int vector) {
+      job.sums = sums;
+      job.out[0] = obscurance ? row(kObscurance) : nullptr;
+      for (int i = 0; vector != kObscurance && i < (sums == SliceSums::kUniform ? 4 : 3); ++i) {
+        job.out[1 + i] = row(vector + i);
+      }
+      job.plane->finite ? add_matter_slices(job) : add_slices(job);
+    };
+    if (wanted_.uniform) run(SliceSums::kUniform, true, kUniformVector);
+    if (wanted_.cosine) run(SliceSums::kCosine, !wanted_.uniform, kCosineVector);
+    if (!wanted_.uniform && !wanted_.cosine) run(SliceSums::kVisibility, true, kObscurance);
   }
 
   const FarFieldSettings settings_;
   const math::Rho rho_;
   const std::vector<Direction> directions_;
-  int margin_ = 0;
+  const int phases_, margin_;
+  WantedSums wanted_;
   Plane planes_[2];
+  Groups groups_;
+  Totals totals_, spare_;
   ScanBuffer buffer_;
+  std::vector<std::vector<TapRead>> taps_;  // of one direction; see taps_of()
 };
 
 }  // namespace
@@ -214,6 +348,14 @@ Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* me
   if (step != 0 && !(step >= 0.125f && step <= 8)) {
     return invalid_argument(
         text("near_step is ", step, "; it must be in [0.125, 8], or 0 for adaptive"));
+  }
+  if (settings.separable == 2) return invalid_argument("separable is 2; it must be 1 or 3");
+  if (settings.separable == 3 && settings.directions % far_field::kCells != 0) {
+    return invalid_argument(text("directions is ", settings.directions,
+                                 "; with separable 3 it must be a multiple of 9, such as 18"));
+  }
+  if (settings.separable == 3 && settings.jitter) {
+    return invalid_argument("jitter and separable 3 exclude each other: both share out 3x3 pixels");
   }
   if (settings.occluder.kind == OccluderKind::kLayers) {
     return unsupported("the far field takes the occluders solid, thickness and back-depth");

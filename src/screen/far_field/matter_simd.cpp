@@ -19,19 +19,15 @@ struct Sample {
   V depth, back;
   M valid;
 };
-HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const NearTap& tap, int u) {
+HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead& tap, int i) {
   const D d;
-  const Plane& p = f.plane;
   const V tiny = hn::Set(d, 1e-30f);
-  const int row = f.v + job.sign * tap.dv, next = tap.wv > 0 ? row + job.sign : row;
-  const float* upper = p.lattice.row(row) + u + tap.du;
-  const float* lower = p.lattice.row(next) + u + tap.du;
-  const V a = hn::LoadU(d, upper), b = hn::LoadU(d, upper + 1);
-  const V c = hn::LoadU(d, lower), e = hn::LoadU(d, lower + 1);
+  const float* texels = job.texels + i;
+  const V a = hn::LoadU(d, texels + tap.upper), b = hn::LoadU(d, texels + tap.upper_next);
+  const V c = hn::LoadU(d, texels + tap.lower), e = hn::LoadU(d, texels + tap.lower_next);
+  const V back = hn::LoadU(d, job.backs + i + tap.nearest);
   const bool right = tap.wu >= 0.5f, below = tap.wv >= 0.5f;
   const V nearest = below ? (right ? e : c) : (right ? b : a);
-  const float* back_row = p.back.row(below ? next : row) + u + tap.du;
-  const V back = hn::LoadU(d, back_row + right);
   const V wu = hn::Set(d, tap.wu);
   const V top = hn::MulAdd(wu, hn::Sub(b, a), a), bottom = hn::MulAdd(wu, hn::Sub(e, c), c);
   const V blended = hn::MulAdd(hn::Set(d, tap.wv), hn::Sub(bottom, top), top);
@@ -46,20 +42,20 @@ HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const NearTap&
   return {depth, hn::Max(back, depth), hn::Gt(g, hn::Zero(d))};
 }
 
-template <FalloffKind kKind>
-void AddMatterSlices(const SliceRow& job, float* HWY_RESTRICT obscurance) {
+template <FalloffKind kKind, SliceSums kSums>
+void AddMatterSlices(const SliceRow& job) {
   const D d;
   const Plane& p = *job.plane;
   const RowFrame f(job);
-  const V one = hn::Set(d, 1.0f), inf = hn::Inf(d);
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Inf(d);
   const V slack = hn::Set(d, job.slack);
   const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int x = 0; x < p.visible_width; x += lanes) {
-    const int u = x + p.left;
-    const Receivers r = MakeReceivers(f, x);
+  const float* own_back = p.back.at(job.row + p.top, job.column + p.left);
+  for (int i = 0; i < job.count; i += lanes) {
+    const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
-    const V own_back = hn::Max(hn::LoadU(d, p.back.row(f.v) + u), r.depth);
-    om::Sectors<D> m = om::StartSectors(d, r.slice, job.tap_count > 0, r.depth, own_back);
+    om::Sectors<D> m = om::StartSectors(d, r.slice, job.tap_count > 0, r.depth,
+                                        hn::Max(hn::LoadU(d, own_back + i), r.depth));
     auto add = [&](V depth, V back, V rows, M valid) HWY_ATTR {
       const V px = r.X(rows), py = r.Y(depth, rows);
       // The matter's end lies on the same view ray.
@@ -67,33 +63,42 @@ void AddMatterSlices(const SliceRow& job, float* HWY_RESTRICT obscurance) {
       const V bx = p.orthographic ? px : hn::Mul(px, scale);
       const V by = p.orthographic ? hn::Sub(py, hn::Sub(back, depth))
                                   : hn::MulAdd(hn::Sub(py, r.camera), scale, r.camera);
-      om::AddMatter<kKind>(d, *job.rho, r.slice, px, py, bx, by, depth, back, hn::Mul(slack, depth),
-                           job.dither, hn::And(valid, r.surface), m);
+      om::AddMatter<kKind, kSums>(d, *job.rho, r.slice, px, py, bx, by, depth, back,
+                                  hn::Mul(slack, depth), job.dither, hn::And(valid, r.surface), m);
     };
-    for (int i = 0; i < job.tap_count; ++i) {
-      const NearTap& tap = job.segment->taps[i];
-      const Sample s = ReadTap(job, f, tap, u);
+    for (int k = 0; k < job.tap_count; ++k) {
+      const TapRead& tap = job.taps[k];
+      const Sample s = ReadTap(job, f, tap, i);
       add(s.depth, s.back, hn::Mul(hn::Set(d, tap.along), p.orthographic ? one : s.depth), s.valid);
     }
-    for (int i = 0; i < job.interval_count; ++i) {
-      const IntervalRead& read = job.intervals[i];
-      const int line = std::clamp(u + read.middle, -PrefixSums::kPadding, job.lines);
-      const V nearest = hn::LoadU(d, read.nearest + line);
+    if (job.far_alone) m.sum = m.sum_x = m.sum_y = m.sum_solid = zero;
+    for (int k = 0; k < job.interval_count; ++k) {
+      const IntervalRead& read = job.intervals[k];
+      const int line = std::clamp(i + read.middle, -PrefixSums::kPadding, job.phase_lines);
+      const V nearest = hn::LoadU(d, read.line.nearest + line);
       const M valid = hn::Lt(nearest, inf);
       const V depth = hn::IfThenElse(valid, nearest, one);
-      const V slanted = hn::IfThenElse(valid, hn::LoadU(d, read.slanted + line), one);
-      const V back = hn::IfThenElse(valid, hn::LoadU(d, read.deepest + line), one);
+      const V slanted = hn::IfThenElse(valid, hn::LoadU(d, read.line.slanted + line), one);
+      const V back = hn::IfThenElse(valid, hn::LoadU(d, read.line.deepest + line), one);
       const V outward = hn::Mul(hn::Set(d, job.slope / p.scale_v), hn::Add(slanted, depth));
       const V rows = hn::MulAdd(hn::Set(d, f.axis), p.orthographic ? one : depth, outward);
       add(depth, back, rows, valid);
     }
-    hn::StoreU(hn::MulAdd(r.width, m.sum, hn::LoadU(d, obscurance + x)), d, obscurance + x);
+    AddToRow<kSums>(job, f, r, i, m);
   }
 }
 
-void AddMatterSlicesAny(const SliceRow& job, float* obscurance) {
-  math::with_falloff_kind(job.rho->kind,
-                          [&]<FalloffKind kKind>() { AddMatterSlices<kKind>(job, obscurance); });
+void AddMatterSlicesAny(const SliceRow& job) {
+  math::with_falloff_kind(job.rho->kind, [&]<FalloffKind kKind>() {
+    switch (job.sums) {
+      case SliceSums::kVisibility:
+        return AddMatterSlices<kKind, SliceSums::kVisibility>(job);
+      case SliceSums::kUniform:
+        return AddMatterSlices<kKind, SliceSums::kUniform>(job);
+      case SliceSums::kCosine:
+        return AddMatterSlices<kKind, SliceSums::kCosine>(job);
+    }
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -105,9 +110,7 @@ namespace obscura::far_field {
 
 HWY_EXPORT(AddMatterSlicesAny);
 
-void add_matter_slices(const SliceRow& job, float* obscurance) {
-  HWY_DYNAMIC_DISPATCH(AddMatterSlicesAny)(job, obscurance);
-}
+void add_matter_slices(const SliceRow& job) { HWY_DYNAMIC_DISPATCH(AddMatterSlicesAny)(job); }
 
 }  // namespace obscura::far_field
 #endif

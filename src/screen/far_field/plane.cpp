@@ -9,16 +9,19 @@ namespace {
 constexpr float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
 constexpr int kTile = 32;          // rows per task; a transposed tile's lines stay in the cache
 
-// out(x, y) = value(u, v) with (u, v) = transposed ? (y, x) : (x, y), tile by tile.
-template <class Row, class Value>
-void fill(int width, int height, Executor& executor, Row row, Value value) {
+// image(u, v) = value(u, v), tile by tile: where value reads a transposed image, its lines stay in
+// the cache.
+template <class Value>
+void fill(int width, int height, Executor& executor, PhaseImage* image, const Value& value) {
   executor.parallel_for((height + kTile - 1) / kTile, [&](int task, int) {
-    const int y0 = task * kTile, y1 = std::min(height, y0 + kTile);
-    for (int x0 = 0; x0 < width; x0 += kTile) {
-      const int x1 = std::min(width, x0 + kTile);
-      for (int y = y0; y < y1; ++y) {
-        float* out = row(y);
-        for (int x = x0; x < x1; ++x) out[x] = value(x, y);
+    const int v1 = std::min(height, (task + 1) * kTile), phases = image->phases();
+    for (int u0 = 0; u0 < width; u0 += kTile * phases) {
+      const int u1 = std::min(width, u0 + kTile * phases);
+      for (int v = task * kTile; v < v1; ++v) {
+        for (int phase = 0; phase < phases && u0 + phase < u1; ++phase) {
+          float* out = image->at(v, u0 + phase);
+          for (int u = u0 + phase; u < u1; u += phases) *out++ = value(u, v);
+        }
       }
     }
   });
@@ -26,13 +29,13 @@ void fill(int width, int height, Executor& executor, Row row, Value value) {
 
 }  // namespace
 
-void MarginImage::resize(int width, int height, int margin) {
-  margin_ = (margin + 15) / 16 * 16;
-  image_.resize(width + 2 * margin_, height);
+void SumImages::clear(int c, int width, int height, int phases, Executor& executor) {
+  channel[c].resize(width, height, 0, phases);
+  executor.parallel_for(height, [&](int y, int) { channel[c].fill_row(y, 0); });
 }
 
 void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transposed, int margin,
-                Executor& executor, Plane* plane) {
+                int phases, Executor& executor, Plane* plane) {
   Plane& p = *plane;
   const Camera& c = g.camera;
   p.orthographic = c.orthographic;
@@ -53,15 +56,10 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   auto texel = [&](const AlignedImage<float>& image, int x, int y) {
     return transposed ? image(y, x) : image(x, y);
   };
-  auto lattice = [&](MarginImage* image, auto value) {
-    image->resize(p.width, p.height, margin);
-    executor.parallel_for(p.height, [&](int y, int) {
-      float* row = image->row(y);
-      std::fill(row - image->margin(), row, 0.0f);
-      std::fill(row + p.width, row + p.width + image->margin(), 0.0f);
-    });
-    fill(
-        p.width, p.height, executor, [&](int y) { return image->row(y); }, value);
+  auto lattice = [&](PhaseImage* image, auto value) {
+    image->resize(p.width, p.height, margin, phases);
+    executor.parallel_for(p.height, [&](int y, int) { image->fill_row(y, 0); });
+    fill(p.width, p.height, executor, image, value);
   };
   lattice(&p.lattice, [&](int x, int y) {
     const float d = texel(g.depth, x, y);
@@ -80,23 +78,33 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
       return std::min(d + occluder.thickness / ray, kFarBack);
     });
   }
+}
 
-  p.normal_u.resize(p.visible_width, p.visible_height);
-  p.normal_v.resize(p.visible_width, p.visible_height);
-  p.normal_w.resize(p.visible_width, p.visible_height);
-  p.obscurance.resize(p.visible_width, p.visible_height);
-  auto normals = [&](const AlignedImage<float>& image, float sign, AlignedImage<float>* out) {
-    fill(
-        p.visible_width, p.visible_height, executor, [&](int y) { return out->row(y); },
-        [&](int x, int y) { return sign * texel(image, x + p.left, y + p.top); });
+void fill_receivers(const ReceiverSource& source, const Plane& p, bool transposed,
+                    Executor& executor, ReceiverImages* receivers) {
+  const int phases = p.lattice.phases();
+  auto texel = [&](const AlignedImage<float>& image, int u, int v) {
+    return transposed ? image(v + source.left, u + source.top)
+                      : image(u + source.left, v + source.top);
   };
-  // The image's v and this frame's third axis run against eye space's y and z.
-  normals(g.normal_x, 1, transposed ? &p.normal_v : &p.normal_u);
-  normals(g.normal_y, -1, transposed ? &p.normal_u : &p.normal_v);
-  normals(g.normal_z, -1, &p.normal_w);
-  executor.parallel_for(p.visible_height, [&](int y, int) {
-    std::fill_n(p.obscurance.row(y), p.visible_width, 0.0f);
+  auto write = [&](PhaseImage* image, auto value) {
+    image->resize(p.visible_width, p.visible_height, 0, phases);
+    // Whole vectors are read, so what follows a row must not stay undefined.
+    executor.parallel_for(p.visible_height, [&](int y, int) { image->fill_row(y, 0); });
+    fill(p.visible_width, p.visible_height, executor, image, value);
+  };
+  write(&receivers->lattice, [&](int u, int v) {
+    const float d = texel(*source.depth, u, v);
+    if (!std::isfinite(d)) return 0.0f;
+    return p.orthographic ? p.kappa - d : 1 / d;
   });
+  // The image's v and this frame's third axis run against eye space's y and z.
+  constexpr float kSign[] = {1, -1, -1};
+  for (int k = 0; k < 3; ++k) {
+    const int axis = transposed && k < 2 ? 1 - k : k;
+    write(&receivers->normal[axis],
+          [&](int u, int v) { return kSign[k] * texel(*source.normal[k], u, v); });
+  }
 }
 
 }  // namespace obscura::far_field

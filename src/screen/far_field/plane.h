@@ -1,25 +1,24 @@
 #ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_PLANE_H_
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_PLANE_H_
 
-#include "core/aligned_image.h"
 #include "obscura/occluder.h"
+#include "screen/far_field/phase_image.h"
 #include "view/geometry.h"
 
 namespace obscura::far_field {
 
-// A float image with a margin of zeros to the left and right of each row.
-class MarginImage {
- public:
-  void resize(int width, int height, int margin);
-  float* row(int y) { return image_.row(y) + margin_; }
-  const float* row(int y) const { return image_.row(y) + margin_; }
-  std::ptrdiff_t stride() const { return image_.stride(); }
-  int margin() const { return margin_; }
-  std::size_t bytes() const { return sizeof(float) * image_.stride() * image_.height(); }
+// What receivers are, visible part.
+struct ReceiverImages {
+  PhaseImage lattice;    // as Plane::lattice
+  PhaseImage normal[3];  // u, v, w; w > 0 points away
+};
 
- private:
-  AlignedImage<float> image_;
-  int margin_ = 0;
+// What slices are added to, visible part; which channel is what: see SliceSums.
+inline constexpr int kMaxChannels = 8;
+struct SumImages {
+  PhaseImage channel[kMaxChannels];
+
+  void clear(int channel, int width, int height, int phases, Executor& executor);
 };
 
 // The depth image as the passes see it, in one of two orientations: as it is, or transposed. Lines
@@ -39,21 +38,33 @@ struct Plane {
 
   // What the contract interpolates between texels: 1/depth, or for parallel rays kappa - depth;
   // 0 on the background and in the margin.
-  MarginImage lattice;
+  PhaseImage lattice;
   float kappa = 0;
 
   // Finite occluders: the depth at which each texel's matter ends; 0 on the background.
   bool finite = false;
-  MarginImage back;
+  PhaseImage back;
 
-  AlignedImage<float> normal_u, normal_v, normal_w;  // visible part; normal_w > 0 points away
-  AlignedImage<float> obscurance;                    // visible part; sums of w_k times slices
+  ReceiverImages own;       // the pixels themselves
+  ReceiverImages averaged;  // section 10: means over 3x3 pixels
+  SumImages sums;
+  SumImages far_sums;  // section 10: the far field of each pixel's share of the directions
 };
 
-// Fills the plane from the geometry; `margin` is the plane's, in texels. Finite thickness is a
-// length along the view ray.
+// Depth and normals of receivers where they are in an image.
+struct ReceiverSource {
+  const AlignedImage<float>* depth;
+  const AlignedImage<float>* normal[3];
+  int left, top;  // of the visible part
+};
+
+// Fills the plane's views of matter from the geometry; `margin` is the plane's, in texels. Finite
+// thickness is a length along the view ray.
 void fill_plane(const view::Geometry& geometry, const Occluder& occluder, bool transposed,
-                int margin, Executor& executor, Plane* plane);
+                int margin, int phases, Executor& executor, Plane* plane);
+
+void fill_receivers(const ReceiverSource& source, const Plane& plane, bool transposed,
+                    Executor& executor, ReceiverImages* receivers);
 
 }  // namespace obscura::far_field
 

@@ -16,22 +16,28 @@ int round_up(int n) { return (n + kVector - 1) / kVector * kVector; }
 
 }  // namespace
 
-LineLayout::LineLayout(const Plane& plane, const Direction& direction) : slope(direction.slope) {
+LineLayout::LineLayout(const Plane& plane, const Direction& direction, int line_step)
+    : slope(direction.slope), step(line_step) {
   // Anchored at the middle row, so that mirrored images have mirrored lines.
   const double reach = std::abs(slope) * (plane.height - 1);
   first = -0.5 * slope * (plane.height - 1) - std::ceil(0.5 * reach) - 1;
-  lines = plane.width + 2 * static_cast<int>(std::ceil(0.5 * reach)) + 3;
+  const int width = plane.width + 2 * static_cast<int>(std::ceil(0.5 * reach)) + 3;
+  lines = (width + step - 1) / step;
 }
 
-void ScanBuffer::resize(const Plane& plane, const Direction& direction, int interval) {
-  lines_ = LineLayout(plane, direction).lines;
+void ScanBuffer::resize(const Plane& plane, const Direction& direction, int interval,
+                        int line_step) {
+  const LineLayout layout(plane, direction, line_step);
+  phases_.count = plane.lattice.phases() / line_step;
+  phase_lines_ = (layout.lines + phases_.count - 1) / phases_.count;
+  phases_.stride = round_up(phase_lines_ + 1) + 3 * PrefixSums::kPadding;
   level_start_.assign(1, 0);
   int strips = (plane.height + direction.phase + interval - 1) / interval;
   for (;; strips = (strips + 1) / 2) {
     level_start_.push_back(level_start_.back() + strips);
     if (strips <= 2) break;
   }
-  const int width = round_up(lines_ + 1) + 3 * PrefixSums::kPadding, rows = level_start_.back();
+  const int width = static_cast<int>(phases_.stride) * phases_.count, rows = level_start_.back();
   nearest_.resize(width, rows);
   slanted_.resize(width, rows);
   if (plane.finite) {
@@ -43,18 +49,16 @@ void ScanBuffer::resize(const Plane& plane, const Direction& direction, int inte
   }
 }
 
-PrefixSums ScanBuffer::sums(int level, int strip) {
-  const int i = index(level, strip), pad = PrefixSums::kPadding;
-  return {depth_.row(i) + pad, outward_.row(i) + pad, count_.row(i) + pad};
+PrefixSums ScanBuffer::sums(int level, int strip, int phase) {
+  const int i = index(level, strip);
+  const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
+  return {depth_.row(i) + at, outward_.row(i) + at, count_.row(i) + at};
 }
-float* ScanBuffer::nearest(int level, int strip) {
-  return nearest_.row(index(level, strip)) + PrefixSums::kPadding;
-}
-float* ScanBuffer::slanted(int level, int strip) {
-  return slanted_.row(index(level, strip)) + PrefixSums::kPadding;
-}
-float* ScanBuffer::deepest(int level, int strip) {
-  return deepest_.row(index(level, strip)) + PrefixSums::kPadding;
+RawStrip ScanBuffer::raw(int level, int strip, int phase) {
+  const int i = index(level, strip);
+  const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
+  return {nearest_.row(i) + at, slanted_.row(i) + at,
+          deepest_.empty() ? nullptr : deepest_.row(i) + at};
 }
 
 std::size_t ScanBuffer::bytes() const {
@@ -65,66 +69,99 @@ std::size_t ScanBuffer::bytes() const {
   return doubles * sizeof(double) + floats * sizeof(float);
 }
 
-void scan(const Plane& plane, const Direction& direction, int interval, int receiver_slope,
-          Executor& executor, ScanBuffer* buffer) {
-  buffer->resize(plane, direction, interval);
-  const LineLayout layout(plane, direction);
-  const float slope = receiver_slope < 0 ? 1.0f : -1.0f;
-  const int padded = round_up(layout.lines);
-  const float slack = join_slack(plane);
-  executor.parallel_for(buffer->strips(0), [&](int strip, int) {
-    ScanRow rows[kMaxInterval];
-    const int start = strip * interval - direction.phase, first = std::max(start, 0);
-    const int count = std::max(0, std::min(start + interval, plane.height) - first);
-    int begin = padded, end = 0;
-    for (int i = 0; i < count; ++i) {
-      const int r = first + i, v = direction.sign > 0 ? r : plane.height - 1 - r;
-      const double shift = layout.shift(r), whole = std::floor(shift);
-      const int offset = static_cast<int>(whole);
-      rows[i] = {plane.lattice.row(v), plane.finite ? plane.back.row(v) : nullptr, offset,
-                 static_cast<float>(shift - whole),
-                 direction.sign * (v - plane.center_v) * plane.scale_v};
-      begin = std::min(begin, -offset - 1);
-      end = std::max(end, plane.width - offset);
-    }
-    begin = std::max(begin, 0) / kVector * kVector;
-    end = std::clamp(round_up(end), begin, padded);
-    float* nearest = buffer->nearest(0, strip);
-    float* slanted = buffer->slanted(0, strip);
-    constexpr float kInf = std::numeric_limits<float>::infinity();
-    constexpr int kPad = PrefixSums::kPadding;
-    auto clear = [&](float* row, float value) {
-      std::fill(row - kPad, row + begin, value);
-      std::fill(row + end, row + padded + kPad, value);
+namespace {
+
+// Scans one strip of rows along the lines of one phase.
+void scan_phase(const Plane& plane, const Direction& direction, const LineLayout& layout,
+                const ScanSettings& settings, int strip, int phase, ScanBuffer* buffer) {
+  const int interval = settings.interval;
+  ScanRow rows[kMaxInterval];
+  const int start = strip * interval - direction.phase, first = std::max(start, 0);
+  const int count = std::max(0, std::min(start + interval, plane.height) - first);
+  const int padded = round_up(buffer->phase_lines());
+  int begin = padded, end = 0;
+  for (int i = 0; i < count; ++i) {
+    const int r = first + i, v = direction.sign > 0 ? r : plane.height - 1 - r;
+    const double shift = layout.shift(r), whole = std::floor(shift);
+    const int offset = static_cast<int>(whole);
+    // Only lines that meet the row are scanned; for the others, in the same vectors, the place of
+    // the first may lie outside the image, margin and all.
+    const int texel = phase * settings.line_step + offset;
+    const int texel_step = plane.lattice.phases();
+    const int low = std::max(0, (-1 - texel) / texel_step);
+    const int high = (plane.width - texel + texel_step - 1) / texel_step;
+    const int aligned = low / kVector * kVector;
+    auto at = [&](const PhaseImage& image, int u) {
+      return image.at(v, u + aligned * texel_step) - aligned;
     };
-    clear(nearest, kInf);
-    clear(slanted, -kInf);
-    float* deepest = plane.finite ? buffer->deepest(0, strip) : nullptr;
-    if (deepest) clear(deepest, 0);
-    const StripJob job{rows,  count,   begin,   end,    plane.orthographic, plane.kappa, slope,
-                       slack, nearest, slanted, deepest};
-    if (plane.finite) return scan_matter(job);
-    scan_strip(job);
-    sum_lines(layout.lines, slope, nearest, slanted, buffer->sums(0, strip));
+    rows[i] = {at(plane.lattice, texel),
+               at(plane.lattice, texel + 1),
+               plane.finite ? at(plane.back, texel) : nullptr,
+               plane.finite ? at(plane.back, texel + 1) : nullptr,
+               static_cast<float>(shift - whole),
+               direction.sign * (v - plane.center_v) * plane.scale_v};
+    begin = std::min(begin, aligned);
+    end = std::max(end, high);
+  }
+  end = std::clamp(round_up(end), begin, padded);
+  const RawStrip out = buffer->raw(0, strip, phase);
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  constexpr int kPad = PrefixSums::kPadding;
+  auto clear = [&](float* row, float value) {
+    std::fill(row - kPad, row + begin, value);
+    std::fill(row + end, row + padded + kPad, value);
+  };
+  clear(out.nearest, kInf);
+  clear(out.slanted, -kInf);
+  if (plane.finite) clear(out.deepest, 0);
+  const StripJob job{.rows = rows,
+                     .row_count = count,
+                     .begin = begin,
+                     .end = end,
+                     .orthographic = plane.orthographic,
+                     .kappa = plane.kappa,
+                     .slope = settings.receiver_slope < 0 ? 1.0f : -1.0f,
+                     .slack = join_slack(plane),
+                     .out = out};
+  plane.finite ? scan_matter(job) : scan_strip(job);
+}
+
+}  // namespace
+
+void scan(const Plane& plane, const Direction& direction, const ScanSettings& settings,
+          Executor& executor, ScanBuffer* buffer) {
+  buffer->resize(plane, direction, settings.interval, settings.line_step);
+  const LineLayout layout(plane, direction, settings.line_step);
+  const float slope = settings.receiver_slope < 0 ? 1.0f : -1.0f, slack = join_slack(plane);
+  auto sum = [&](int level, int strip) {
+    if (plane.finite) return;
+    sum_lines(layout.lines, buffer->phases(), buffer->phase_stride(), slope,
+              buffer->raw(level, strip, 0), buffer->sums(level, strip, 0));
+  };
+  executor.parallel_for(buffer->strips(0), [&](int strip, int) {
+    for (int phase = 0; phase < buffer->phases(); ++phase) {
+      scan_phase(plane, direction, layout, settings, strip, phase, buffer);
+    }
+    sum(0, strip);
   });
   for (int level = 1; level < buffer->levels(); ++level) {
     executor.parallel_for(buffer->strips(level), [&](int strip, int) {
       const int a = 2 * strip, b = std::min(a + 1, buffer->strips(level - 1) - 1);
-      float* nearest = buffer->nearest(level, strip);
-      float* slanted = buffer->slanted(level, strip);
-      if (plane.finite) {
-        constexpr int kPad = PrefixSums::kPadding;
-        auto raw = [&](int l, int i) {
-          return RawStrip{buffer->nearest(l, i) - kPad, buffer->slanted(l, i) - kPad,
-                          buffer->deepest(l, i) - kPad};
-        };
-        merge_matter(padded + 2 * kPad, slack, raw(level - 1, a), raw(level - 1, b),
-                     raw(level, strip));
-        return;
+      const int lines = round_up(buffer->phase_lines()) + 2 * PrefixSums::kPadding;
+      auto raw = [&](int l, int i, int phase) {
+        RawStrip r = buffer->raw(l, i, phase);
+        r.nearest -= PrefixSums::kPadding;
+        r.slanted -= PrefixSums::kPadding;
+        if (r.deepest) r.deepest -= PrefixSums::kPadding;
+        return r;
+      };
+      for (int phase = 0; phase < buffer->phases(); ++phase) {
+        const RawStrip out = raw(level, strip, phase);
+        const RawStrip first = raw(level - 1, a, phase), second = raw(level - 1, b, phase);
+        plane.finite ? merge_matter(lines, slack, first, second, out)
+                     : merge_strips(lines, first, second, out);
       }
-      merge_strips(padded, buffer->nearest(level - 1, a), buffer->slanted(level - 1, a),
-                   buffer->nearest(level - 1, b), buffer->slanted(level - 1, b), nearest, slanted);
-      sum_lines(layout.lines, slope, nearest, slanted, buffer->sums(level, strip));
+      sum(level, strip);
     });
   }
 }

@@ -9,9 +9,10 @@
 
 namespace obscura::far_field {
 
-// Sums over neighbouring lines of one strip of rows: entry j is the sum over the lines below j.
-// They may be read whole vectors at a time from -kPadding to lines + kPadding, where they go on as
-// constants. In double, for a plain float sum over 2,400 lines loses 7e-5 of the depth.
+// Sums over neighbouring lines of one strip of rows, one phase of the lines: entry i is the sum
+// over all lines before the phase's line i. They may be read whole vectors at a time from -kPadding
+// to phase_lines + kPadding, where they go on as constants. In double, for a plain float sum over
+// 2,400 lines loses 7e-5 of the depth.
 struct PrefixSums {
   static constexpr int kPadding = 16;
 
@@ -20,39 +21,47 @@ struct PrefixSums {
   float* count;     // lines that saw a surface
 };
 
+// The same lines before they are summed, padded likewise with lines that saw nothing.
+struct RawStrip {
+  float* nearest;  // -m0 per line, +inf where no surface
+  float* slanted;  // m1 per line
+  float* deepest;  // finite occluders: depth at which the matter ends
+};
+
+// Scanned line j crosses row r (counted outwards) at u = j * step + shift(r).
+struct LineLayout {
+  LineLayout(const Plane& plane, const Direction& direction, int step);
+  double shift(double row) const { return first + slope * row; }
+
+  double slope, first;
+  int step, lines;
+};
+
 // The intermediate data of one direction: a pyramid of strips, level l of interval * 2^l rows,
 // counted from the edge at which scanned lines begin.
 class ScanBuffer {
  public:
   // Finite occluders read single lines and need no sums, but where the matter ends.
-  void resize(const Plane& plane, const Direction& direction, int interval);
+  void resize(const Plane& plane, const Direction& direction, int interval, int line_step);
 
-  int lines() const { return lines_; }
+  int phases() const { return phases_.count; }      // of the lines
+  int phase_lines() const { return phase_lines_; }  // lines per phase, rounded up
   int levels() const { return static_cast<int>(level_start_.size()) - 1; }
   int strips(int level) const { return level_start_[level + 1] - level_start_[level]; }
-  PrefixSums sums(int level, int strip);
-  // Raw, padded like the sums with lines that saw nothing.
-  float* nearest(int level, int strip);  // -m0 per line, +inf where no surface
-  float* slanted(int level, int strip);  // m1 per line
-  float* deepest(int level, int strip);  // finite occluders: depth at which the matter ends
+  PrefixSums sums(int level, int strip, int phase);
+  RawStrip raw(int level, int strip, int phase);
+  // From one phase to the next.
+  std::ptrdiff_t phase_stride() const { return phases_.stride; }
   std::size_t bytes() const;
 
  private:
   int index(int level, int strip) const { return level_start_[level] + strip; }
 
-  int lines_ = 0;
+  int phase_lines_ = 0;
+  Phases phases_;
   std::vector<int> level_start_;
   AlignedImage<double> depth_, outward_;
   AlignedImage<float> count_, nearest_, slanted_, deepest_;
-};
-
-// Line j crosses row r (counted outwards) at u = j + shift(r).
-struct LineLayout {
-  LineLayout(const Plane& plane, const Direction& direction);
-  double shift(double row) const { return first + slope * row; }
-
-  double slope, first;
-  int lines;
 };
 
 // Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
@@ -62,8 +71,14 @@ inline float join_slack(const Plane& plane) {
   return kJoinedPixels * (plane.scale_u > plane.scale_v ? plane.scale_u : plane.scale_v);
 }
 
+struct ScanSettings {
+  int interval;        // B0, texels
+  int receiver_slope;  // -1 or 1
+  int line_step = 1;   // every n-th line is scanned; divides the plane's phases
+};
+
 // Algorithm 1 in parallel lines, the pyramid, and section 7's sums over lines.
-void scan(const Plane& plane, const Direction& direction, int interval, int receiver_slope,
+void scan(const Plane& plane, const Direction& direction, const ScanSettings& settings,
           Executor& executor, ScanBuffer* buffer);
 
 }  // namespace obscura::far_field

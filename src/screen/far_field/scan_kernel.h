@@ -5,16 +5,15 @@
 
 namespace obscura::far_field {
 
-// One row of a strip: line j reads texels j + offset and the next, blended by `blend`.
+// One row of a strip: line j of a phase lies between lattice[j] and next[j], at `blend` of the way.
 struct ScanRow {
-  const float* lattice;  // texel 0 of the row
-  const float* back;     // finite occluders: the same of Plane::back
-  int offset;
+  const float *lattice, *next;
+  const float *back, *next_back;  // finite occluders: the same of Plane::back
   float blend;
   float outward;  // outward coordinate of the row at depth 1, or in world units
 };
 
-// Maxima of a strip's rows for lines [begin, end), begin and end multiples of a vector.
+// Maxima of a strip's rows for a phase's lines [begin, end), multiples of a vector.
 struct StripJob {
   const ScanRow* rows;
   int row_count;
@@ -23,9 +22,7 @@ struct StripJob {
   float kappa;
   float slope;  // +1: m1 = max(x - depth), for a receiver that looks down; -1: the other way
   float slack;  // finite occluders: relative gap in depth that joins neighbours
-  float* nearest;
-  float* slanted;
-  float* deepest;
+  RawStrip out;
 };
 void scan_strip(const StripJob& job);
 
@@ -33,19 +30,14 @@ void scan_strip(const StripJob& job);
 void scan_matter(const StripJob& job);
 
 // Maxima of two strips of the level below.
-void merge_strips(int lines, const float* near_a, const float* slant_a, const float* near_b,
-                  const float* slant_b, float* nearest, float* slanted);
-
-struct RawStrip {
-  float* nearest;
-  float* slanted;
-  float* deepest;
-};
+void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out);
 void merge_matter(int lines, float slack, const RawStrip& a, const RawStrip& b,
                   const RawStrip& out);
 
-void sum_lines(int lines, float slope, const float* nearest, const float* slanted,
-               const PrefixSums& sums);
+// Running sums over all lines in their order, phase after phase; `strip` and `sums` are those of
+// phase 0, the next lies `phase_stride` farther.
+void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
+               const RawStrip& strip, const PrefixSums& sums);
 
 }  // namespace obscura::far_field
 

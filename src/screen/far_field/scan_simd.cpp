@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <limits>
 
 #include "screen/far_field/scan_kernel.h"
@@ -24,8 +25,7 @@ void ScanStrip(const StripJob& job) {
     V nearest = inf, slanted = hn::Neg(inf);
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
-      const V a = hn::LoadU(d, row.lattice + j + row.offset);
-      const V b = hn::LoadU(d, row.lattice + j + row.offset + 1);
+      const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
       const V blend = hn::Set(d, row.blend);
       // Beside the background the nearer texel decides: a skirt that falls to infinity within one
       // cell would spoil the averages.
@@ -39,8 +39,8 @@ void ScanStrip(const StripJob& job) {
       nearest = hn::Min(nearest, hn::IfThenElse(surface, depth, inf));
       slanted = hn::Max(slanted, hn::IfThenElse(surface, height, hn::Neg(inf)));
     }
-    hn::StoreU(nearest, d, job.nearest + j);
-    hn::StoreU(slanted, d, job.slanted + j);
+    hn::StoreU(nearest, d, job.out.nearest + j);
+    hn::StoreU(slanted, d, job.out.slanted + j);
   }
 }
 
@@ -65,12 +65,11 @@ void ScanMatter(const StripJob& job) {
     V last = inf, last_back = zero;
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
-      const int at = j + row.offset;
       auto depth_of = [&](V g) HWY_ATTR {
         return job.orthographic ? hn::Sub(hn::Set(d, job.kappa), g) : hn::Div(one, g);
       };
-      const V a = hn::LoadU(d, row.lattice + at), b = hn::LoadU(d, row.lattice + at + 1);
-      const V back_a = hn::LoadU(d, row.back + at), back_b = hn::LoadU(d, row.back + at + 1);
+      const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
+      const V back_a = hn::LoadU(d, row.back + j), back_b = hn::LoadU(d, row.next_back + j);
       const V tiny = hn::Set(d, 1e-30f);
       const V da = depth_of(hn::Max(a, tiny)), db = depth_of(hn::Max(b, tiny));
       // Between texels whose matter does not touch, the nearer one decides.
@@ -97,9 +96,9 @@ void ScanMatter(const StripJob& job) {
       last_back = hn::IfThenElse(surface, back, zero);
     }
     KeepNearer(piece, &best);
-    hn::StoreU(best.nearest, d, job.nearest + j);
-    hn::StoreU(best.slanted, d, job.slanted + j);
-    hn::StoreU(best.deepest, d, job.deepest + j);
+    hn::StoreU(best.nearest, d, job.out.nearest + j);
+    hn::StoreU(best.slanted, d, job.out.slanted + j);
+    hn::StoreU(best.deepest, d, job.out.deepest + j);
   }
 }
 
@@ -127,12 +126,13 @@ void MergeMatter(int lines, float slack, const RawStrip& a, const RawStrip& b,
   }
 }
 
-void MergeStrips(int lines, const float* near_a, const float* slant_a, const float* near_b,
-                 const float* slant_b, float* nearest, float* slanted) {
+void MergeStrips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
   const D d;
   for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    hn::StoreU(hn::Min(hn::LoadU(d, near_a + j), hn::LoadU(d, near_b + j)), d, nearest + j);
-    hn::StoreU(hn::Max(hn::LoadU(d, slant_a + j), hn::LoadU(d, slant_b + j)), d, slanted + j);
+    hn::StoreU(hn::Min(hn::LoadU(d, a.nearest + j), hn::LoadU(d, b.nearest + j)), d,
+               out.nearest + j);
+    hn::StoreU(hn::Max(hn::LoadU(d, a.slanted + j), hn::LoadU(d, b.slanted + j)), d,
+               out.slanted + j);
   }
 }
 
@@ -157,32 +157,41 @@ void merge_matter(int lines, float slack, const RawStrip& a, const RawStrip& b,
   HWY_DYNAMIC_DISPATCH(MergeMatter)(lines, slack, a, b, out);
 }
 
-void merge_strips(int lines, const float* near_a, const float* slant_a, const float* near_b,
-                  const float* slant_b, float* nearest, float* slanted) {
-  HWY_DYNAMIC_DISPATCH(MergeStrips)(lines, near_a, slant_a, near_b, slant_b, nearest, slanted);
+void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
+  HWY_DYNAMIC_DISPATCH(MergeStrips)(lines, a, b, out);
 }
 
 // A running sum is a chain of additions, which lanes would not shorten.
-void sum_lines(int lines, float slope, const float* nearest, const float* slanted,
-               const PrefixSums& sums) {
+void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
+               const RawStrip& strip, const PrefixSums& sums) {
   constexpr int kPad = PrefixSums::kPadding;
+  const int phase_lines = (lines + phases - 1) / phases;
   double depth = 0, outward = 0;
   float count = 0;
-  auto set = [&](int j) {
-    sums.depth[j] = depth;
-    sums.outward[j] = outward;
-    sums.count[j] = count;
+  auto set = [&](std::ptrdiff_t at) {
+    sums.depth[at] = depth;
+    sums.outward[at] = outward;
+    sums.count[at] = count;
   };
-  for (int j = -kPad; j < 0; ++j) set(j);
-  for (int j = 0; j < lines; ++j) {
-    set(j);
-    const bool surface = nearest[j] < std::numeric_limits<float>::infinity();
-    depth += surface ? nearest[j] : 0.0f;
-    // The two receiver lines meet where z = m0 and slope x = m1 - m0.
-    outward += surface ? slope * (slanted[j] + nearest[j]) : 0.0f;
-    count += surface ? 1.0f : 0.0f;
+  auto pad = [&](int from, int to) {
+    for (int phase = 0; phase < phases; ++phase) {
+      for (int i = from; i < to; ++i) set(phase * phase_stride + i);
+    }
+  };
+  pad(-kPad, 0);
+  for (int i = 0; i < phase_lines; ++i) {
+    for (int phase = 0; phase < phases; ++phase) {
+      const std::ptrdiff_t at = phase * phase_stride + i;
+      set(at);
+      if (i * phases + phase >= lines) continue;
+      const bool surface = strip.nearest[at] < std::numeric_limits<float>::infinity();
+      depth += surface ? strip.nearest[at] : 0.0f;
+      // The two receiver lines meet where z = m0 and slope x = m1 - m0.
+      outward += surface ? slope * (strip.slanted[at] + strip.nearest[at]) : 0.0f;
+      count += surface ? 1.0f : 0.0f;
+    }
   }
-  for (int j = lines; j < lines + 2 * kPad; ++j) set(j);
+  pad(phase_lines, phase_lines + 2 * kPad);
 }
 
 }  // namespace obscura::far_field

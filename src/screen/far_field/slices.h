@@ -1,50 +1,74 @@
 #ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_SLICES_H_
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_SLICES_H_
 
+#include <cstddef>
+
 #include "math/falloff.h"
+#include "math/slice_sums.h"
 #include "screen/far_field/directions.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
 
 namespace obscura::far_field {
 
-// One interval as a segment of a row of receivers meets it: the receiver at u averages the lines
-// [u + first, u + last) of `sums`. The numbers are the same for all receivers of a row.
-struct IntervalRead {
-  PrefixSums sums;
-  int first, last;
-  float inverse_lines;  // 1 / (last - first)
+// One direct sample as the receivers of one phase meet it: where its four texels lie from
+// SliceRow::texels for receiver 0; those of receiver i are i further on.
+struct TapRead {
+  std::ptrdiff_t upper, upper_next, lower, lower_next;
+  std::ptrdiff_t nearest;  // of the four
+  float wu, wv;            // weights of the next and of the lower texels
+  float along;             // rows outwards
+};
 
-  // Finite occluders average nothing: the line at u + middle.
-  const float *nearest, *slanted, *deepest;
+// One interval likewise: receiver i averages the lines from entry first + i of `from` to entry
+// last + i of `to`. The numbers are the same for all receivers of a row's phase.
+struct IntervalRead {
+  PrefixSums from, to;
+  int first, last;
+  float inverse_lines;
+
+  // Finite occluders average nothing: line middle + i.
+  RawStrip line;
   int middle;
 };
 
-// One segment of one direction for a row of receivers.
+inline constexpr int kMaxIntervals = 64;
+
+// One segment of one direction for the receivers of one phase of a row.
 struct SliceRow {
   const Plane* plane;
+  const ReceiverImages* receivers;
   const math::Rho* rho;
+  SliceSums sums;
   bool chord;
-  bool partial;  // some interval may be covered in part only
+  bool far_alone;  // the near field's horizon counts, its obscurance does not
   int sign;
-  int row;  // of the visible part
+  int row, column;  // of the visible part; `column` is the first receiver's
+  int count;        // receivers
   const Segment* segment;
-  int lines;
-  int tap_count;  // of segment->taps
+  const float* texels;  // of Plane::lattice, in the receivers' row
+  const float* backs;   // finite occluders: the same of Plane::back
+  const TapRead* taps;
+  int tap_count;
   const IntervalRead* intervals;
   int interval_count;
+  int phase_lines;
 
   // Finite occluders.
   float slope;   // of the scan's second height: +1 or -1
   float slack;   // relative gap in depth that joins neighbours
   float dither;  // [-0.5, 0.5)
+
+  // Receivers' rows that w_k times the slice's integrals are added to: obscurance (equation 2; may
+  // be null), then directions along the plane's u and v axes and along the view ray, and the
+  // obscured solid angle.
+  float* out[5];
 };
 
-// Adds w_k times the slice's integral (equation 2) to the row of plane->obscurance.
-void add_slices(const SliceRow& job, float* obscurance);
+void add_slices(const SliceRow& job);
 
 // The same where matter has an end (Plane::finite).
-void add_matter_slices(const SliceRow& job, float* obscurance);
+void add_matter_slices(const SliceRow& job);
 
 }  // namespace obscura::far_field
 

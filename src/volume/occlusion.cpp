@@ -12,6 +12,25 @@
 
 namespace obscura {
 
+// A position among the voxels of a grid.
+struct Place {
+  int index[3][2];      // the voxels beside it, those within the grid
+  float share[3][2];    // of either
+  float outside[3][2];  // voxels beyond the outermost, on the low and the high side, at most 1
+
+  int corner(int corner, int axis) const { return index[axis][corner >> axis & 1]; }
+  float corner_share(int corner) const {
+    return share[0][corner & 1] * share[1][corner >> 1 & 1] * share[2][corner >> 2];
+  }
+  // Share of the visibility of the voxels within, for light from an octant. Voxels outside the grid
+  // are open on the side of the light; on the other the voxels at the border stand for them.
+  float within(int octant) const {
+    float w = 1;
+    for (int a = 0; a < 3; ++a) w *= 1 - outside[a][octant >> a & 1];
+    return w;
+  }
+};
+
 // Channels of octant s stand together: (s & 3) * directions + direction, in half s >> 2.
 class VisibilityFieldImpl {
  public:
@@ -52,30 +71,53 @@ class VisibilityFieldImpl {
     }
   }
 
-  // All channels at a position of the field's own space, trilinearly.
-  void sample(const Vec3& p, int halves, float* sum) const {
-    std::size_t index[3][2];
-    float share[3][2];
+  // Where a position of the field's own space lies among its voxels.
+  Place place(const Vec3& p) const {
+    Place at;
     for (int a = 0; a < 3; ++a) {
-      const float u =
-          std::clamp((p[a] - origin[a]) / spacing[a], 0.0f, static_cast<float>(size[a] - 1));
-      const int i = static_cast<int>(u), next = std::min(i + 1, size[a] - 1);
-      share[a][1] = u - static_cast<float>(i);
-      share[a][0] = 1 - share[a][1];
-      index[a][0] = static_cast<std::size_t>(i);
-      index[a][1] = static_cast<std::size_t>(next);
+      const float u = (p[a] - origin[a]) / spacing[a], last = static_cast<float>(size[a] - 1);
+      const float inside = std::clamp(u, 0.0f, last);
+      const int i = std::min(static_cast<int>(inside), std::max(0, size[a] - 2));
+      at.index[a][0] = i;
+      at.index[a][1] = std::min(i + 1, size[a] - 1);
+      at.share[a][1] = inside - static_cast<float>(i);
+      at.share[a][0] = 1 - at.share[a][1];
+      at.outside[a][0] = std::clamp(-u, 0.0f, 1.0f);
+      at.outside[a][1] = std::clamp(u - last, 0.0f, 1.0f);
     }
+    return at;
+  }
+
+  // All channels there, trilinearly.
+  void sample(const Place& at, int halves, float* sum) const {
     std::fill_n(sum, 2 * channels(), 0.0f);
     for (int corner = 0; corner < 8; ++corner) {
-      const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-      const float s = share[0][i] * share[1][j] * share[2][k];
+      const float s = at.corner_share(corner);
       if (s == 0) continue;
-      const std::size_t voxel =
-          index[0][i] + size[0] * (index[1][j] + static_cast<std::size_t>(size[1]) * index[2][k]);
+      const auto voxel = static_cast<std::size_t>(at.corner(corner, 0)) +
+                         size[0] * (static_cast<std::size_t>(at.corner(corner, 1)) +
+                                    static_cast<std::size_t>(size[1]) * at.corner(corner, 2));
       for (int half = 0; half < 2; ++half) {
         if (halves >> half & 1) add(half, voxel, s, sum + half * channels());
       }
     }
+  }
+
+  // Heights of the voxels there above the plane through a point of the surface.
+  PlaneTable::Heights heights(const Place& at, const SurfacePoint& point) const {
+    PlaneTable::Heights result(plane);
+    for (int corner = 0; corner < 8; ++corner) {
+      const float s = at.corner_share(corner);
+      if (s == 0) continue;
+      float height = 0;
+      for (int a = 0; a < 3; ++a) {
+        height +=
+            point.normal[a] *
+            (origin[a] + spacing[a] * static_cast<float>(at.corner(corner, a)) - point.position[a]);
+      }
+      result.add(height, s);
+    }
+    return result;
   }
 };
 
@@ -391,45 +433,54 @@ Status VisibilityField::scalar(GridView<float> visibility, const VolumeRun& run)
 
 namespace {
 
-// Light at one point from the visibilities of all channels there.
-float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Vec3& normal,
-             const float* visibility) {
+// Light at one point from the visibilities of all channels at its look-up.
+float gather(const VisibilityFieldImpl& f, const LightSettings& light, const SurfacePoint& point,
+             const Place& place, const float* visibility) {
   const int n = f.directions();
+  const Vec3& normal = point.normal;
   if (f.shadow || !light.geometry_term) {
     float sum = 0, count = 0;
     for (int s = f.shadow ? 7 : 0; s < 8; ++s) {
       if (!f.shadow && !(light.octants >> s & 1)) continue;
       const float* v = visibility + (s >> 2) * f.channels() + (s & 3) * n;
-      for (int i = 0; i < n; ++i) sum += f.scheme.directions[i].weight * v[i];
+      const float within = place.within(s);
+      for (int i = 0; i < n; ++i) {
+        sum += f.scheme.directions[i].weight * (1 + within * (v[i] - 1));
+      }
       ++count;
     }
     return std::min(sum / count, 1.0f);
   }
   const bool through = f.alpha < 1;
   float sum = 0, all = 0;
-  float plane[kMaxDirections];
-  std::fill_n(plane, kMaxDirections, 1.0f);
+  float plane[PlaneTable::kRoom];
+  std::fill_n(plane, PlaneTable::kRoom, 1.0f);
+  PlaneTable::Heights heights(f.plane);
+  if (f.scheme.plane) heights = f.heights(place, point);
   for (int s = 0; s < 8; ++s) {
     const bool on = (light.octants >> s & 1) != 0;
     const float* v = visibility + (s >> 2) * f.channels() + (s & 3) * n;
+    const float within = place.within(s);
     if (n == 1 && !f.scheme.plane) {
       // Equation 4; seen through the surface, the other side's geometry term adds.
       const float g = octant_geometry(normal, s) +
                       (through ? octant_geometry({-normal[0], -normal[1], -normal[2]}, s) : 0.0f);
-      if (on) sum += g * v[0];
+      if (on) sum += g * (1 + within * (v[0] - 1));
       all += g;
       continue;
     }
     Vec3 reflected = normal;
     for (int a = 0; a < 3; ++a) reflected[a] = s >> a & 1 ? normal[a] : -normal[a];
-    if (on && f.scheme.plane) f.plane.look_up(reflected, plane);
+    if (!through && reflected[0] <= 0 && reflected[1] <= 0 && reflected[2] <= 0) continue;
+    if (on && f.scheme.plane) f.plane.look_up(reflected, heights, plane);
     for (int i = 0; i < n; ++i) {
       const SweepDirection& d = f.scheme.directions[i];
       const float cosine = d.direction[0] * reflected[0] + d.direction[1] * reflected[1] +
                            d.direction[2] * reflected[2];
       if (cosine <= 0 && !through) continue;
       const float weight = d.weight * std::fabs(cosine);
-      if (on) sum += weight * std::min(1.0f, cosine > 0 ? v[i] / plane[i] : v[i]);
+      const float open = std::min(1.0f, cosine > 0 ? v[i] / plane[i] : v[i]);
+      if (on) sum += weight * (1 + within * (open - 1));
       all += weight;
     }
   }
@@ -474,8 +525,9 @@ Status VisibilityField::light(std::span<const SurfacePoint> points, const LightS
           p[a] = f.turned[a][0] * q[0] + f.turned[a][1] * q[1] + f.turned[a][2] * q[2];
         }
       }
-      f.sample(p, halves, values);
-      visibility[i] = gather(f, settings, point.normal, values);
+      const Place place = f.place(p);
+      f.sample(place, halves, values);
+      visibility[i] = gather(f, settings, point, place, values);
     }
     progress.advance();
   });

@@ -60,7 +60,8 @@ SweepDirection make_direction(const Kind& kind, Stencil stencil,
 constexpr int kTableSide = 17;
 constexpr int kPerVoxel = 4;  // heights per voxel
 constexpr int kReach = 3;     // voxels above and below the plane
-constexpr int kHeights = 2 * kReach * kPerVoxel + 1;
+constexpr int kHeights = PlaneTable::kHeights;
+static_assert(kHeights == 2 * kReach * kPerVoxel + 1);
 
 std::array<float, 3> octahedral(float u, float v) {  // u, v in [-1, 1]
   std::array<float, 3> n{u, v, 1 - std::fabs(u) - std::fabs(v)};
@@ -81,10 +82,7 @@ class PlaneScheme {
               const std::array<float, 3>& spacing, float unit, float alpha)
       : per_height_(kPerVoxel / unit), unit_(unit), alpha_(alpha) {
     std::array<float, 3> rise;  // of the plane's height, one voxel towards the light
-    for (int a = 0; a < 3; ++a) {
-      rise[a] = normal[a] * spacing[a];
-      spread2_ += rise[a] * rise[a] / 6;
-    }
+    for (int a = 0; a < 3; ++a) rise[a] = normal[a] * spacing[a];
     if (d.stencil == Stencil::kUpwind) {
       add(1 - d.first - d.second, rise[2]);
       add(d.first, rise[0]);
@@ -98,7 +96,8 @@ class PlaneScheme {
     }
   }
 
-  float visibility(float height) {
+  // Writes the visibility at height i of the table to out[i * step].
+  void solve(float* out, int step) {
     std::fill_n(value_, kHeights, 1.0f);
     // Neighbours may lie lower than the voxel, so that one pass from above is not all.
     for (int pass = 0; pass < 8; ++pass) {
@@ -112,10 +111,7 @@ class PlaneScheme {
       }
       if (change < 1e-3f) break;
     }
-    // The look-up interpolates between voxels, whose heights spread around the point's by this
-    // much, whatever the point's place between them.
-    const float spread = std::sqrt(3.0f * spread2_);
-    return (at(height - spread) + 4 * at(height) + at(height + spread)) / 6;
+    for (int i = 0; i < kHeights; ++i) out[i * step] = value_[i];
   }
 
  private:
@@ -137,7 +133,6 @@ class PlaneScheme {
   }
 
   float per_height_, unit_, alpha_;
-  float spread2_ = 0;
   int count_ = 0;
   float weight_[4], rise_[4], value_[kHeights];
 };
@@ -178,27 +173,41 @@ TransportScheme transport_scheme(Transport transport, const std::array<float, 3>
 
 PlaneTable::PlaneTable(const TransportScheme& scheme, const std::array<float, 3>& spacing,
                        float unit, float alpha, Executor& executor)
-    : count_(static_cast<int>(scheme.directions.size())),
-      values_(static_cast<std::size_t>(kTableSide) * kTableSide * scheme.directions.size(), 1.0f) {
+    : pitch_((static_cast<int>(scheme.directions.size()) + 3) / 4 * 4),
+      per_height_(kPerVoxel / unit),
+      values_(static_cast<std::size_t>(kTableSide) * kTableSide * kHeights * pitch_, 1.0f) {
   executor.parallel_for(kTableSide, [&](int row, int) {
     for (int column = 0; column < kTableSide; ++column) {
       auto coordinate = [](int i) { return 2 * static_cast<float>(i) / (kTableSide - 1) - 1; };
       const auto normal = octahedral(coordinate(column), coordinate(row));
-      float height = 0;
-      for (int a = 0; a < 3; ++a) height += normal[a] * normal[a] * spacing[a] * scheme.lookup;
-      float* out = values_.data() + static_cast<std::size_t>(row * kTableSide + column) * count_;
-      for (int i = 0; i < count_; ++i) {
+      float* out = values_.data() + node(column, row);
+      for (std::size_t i = 0; i < scheme.directions.size(); ++i) {
         const auto& w = scheme.directions[i].direction;
         // Directions below the plane are never divided; those near it take part in interpolation.
         if (w[0] * normal[0] + w[1] * normal[1] + w[2] * normal[2] < -0.3f) continue;
-        PlaneScheme plane(scheme.directions[i], normal, spacing, unit, alpha);
-        out[i] = std::max(plane.visibility(height), 1e-3f);
+        PlaneScheme(scheme.directions[i], normal, spacing, unit, alpha).solve(out + i, pitch_);
       }
     }
   });
 }
 
-void PlaneTable::look_up(const std::array<float, 3>& normal, float* values) const {
+std::size_t PlaneTable::node(int column, int row) const {
+  return static_cast<std::size_t>(row * kTableSide + column) * kHeights * pitch_;
+}
+
+void PlaneTable::Heights::add(float height, float share) {
+  const float u =
+      std::clamp(height * per_height_ + kReach * kPerVoxel, 0.0f, static_cast<float>(kHeights - 1));
+  const int i = std::min(static_cast<int>(u), kHeights - 2);
+  const float above = share * (u - static_cast<float>(i));
+  share_[i] += share - above;
+  share_[i + 1] += above;
+  first_ = std::min(first_, i);
+  last_ = std::max(last_, i + 1);
+}
+
+void PlaneTable::look_up(const std::array<float, 3>& normal, const Heights& heights,
+                         float values[kRoom]) const {
   const float sum = std::fabs(normal[0]) + std::fabs(normal[1]) + std::fabs(normal[2]);
   float u = normal[0] / sum, v = normal[1] / sum;
   if (normal[2] < 0) {
@@ -212,13 +221,16 @@ void PlaneTable::look_up(const std::array<float, 3>& normal, float* values) cons
   const int j = std::min(static_cast<int>(v), kTableSide - 2);
   u -= static_cast<float>(i);
   v -= static_cast<float>(j);
-  const float* a = values_.data() + static_cast<std::size_t>(j * kTableSide + i) * count_;
-  const float* b = a + static_cast<std::size_t>(kTableSide) * count_;
-  for (int k = 0; k < count_; ++k) {
-    const float low = a[k] + u * (a[k + count_] - a[k]);
-    const float high = b[k] + u * (b[k + count_] - b[k]);
-    values[k] = low + v * (high - low);
+  const float share[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+  std::fill_n(values, pitch_, 0.0f);
+  for (int corner = 0; corner < 4; ++corner) {
+    const float* at = values_.data() + node(i + (corner & 1), j + (corner >> 1));
+    for (int h = heights.first_; h <= heights.last_; ++h) {
+      const float weight = share[corner] * heights.share_[h];
+      for (int k = 0; k < pitch_; ++k) values[k] += weight * at[h * pitch_ + k];
+    }
   }
+  for (int k = 0; k < pitch_; ++k) values[k] = std::max(values[k], 1e-3f);
 }
 
 float octant_geometry(const std::array<float, 3>& normal, int octant) {

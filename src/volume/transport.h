@@ -18,21 +18,40 @@ struct TransportScheme {
 // `spacing` is the volume's.
 TransportScheme transport_scheme(Transport transport, const std::array<float, 3>& spacing);
 
-// Visibility that a scheme itself gives above an unoccluded plane, at the height of its look-up,
-// over the plane's normal: the scheme in one dimension. Tabulated on the octahedron of normals.
+// Visibility that a scheme itself gives above an unoccluded plane, over the plane's normal and the
+// height above it: the scheme in one dimension. Tabulated on the octahedron of normals.
 class PlaneTable {
  public:
+  static constexpr int kHeights = 25;
+  static constexpr int kRoom = (kMaxDirections + 3) / 4 * 4;  // for the values of a look-up
+
+  // Heights of the voxels between which a look-up interpolates, with their shares.
+  class Heights {
+   public:
+    explicit Heights(const PlaneTable& table) : per_height_(table.per_height_) {}
+    void add(float height, float share);
+
+   private:
+    friend PlaneTable;
+    float per_height_;
+    int first_ = kHeights, last_ = -1;
+    float share_[kHeights] = {};
+  };
+
   PlaneTable() = default;
   // `spacing` is of the scheme's grid, `unit` what tau is measured in (equation 7).
   PlaneTable(const TransportScheme& scheme, const std::array<float, 3>& spacing, float unit,
              float alpha, Executor& executor);
 
-  bool empty() const { return values_.empty(); }
   // Of every direction, for a normal whose signs were multiplied by the octant's.
-  void look_up(const std::array<float, 3>& normal, float* values) const;
+  void look_up(const std::array<float, 3>& normal, const Heights& heights,
+               float values[kRoom]) const;
 
  private:
-  int count_ = 0;
+  std::size_t node(int column, int row) const;
+
+  int pitch_ = 0;  // floats from height to height
+  float per_height_ = 0;
   std::vector<float> values_;
 };
 

@@ -7,8 +7,8 @@ namespace obscura {
 namespace {
 
 // Voxels of the half-resolution grid from a point to its look-up: higher, narrow channels are
-// missed; lower, the surface's own voxels count too much.
-constexpr float kLookup = 0.6f;
+// missed; lower, the surface's own voxels count too much, more so where the stencil spreads light.
+constexpr float kLookup = 0.6f, kUpwindLookup = 0.9f;
 
 // Quadrature of an octant (Lathrop and Carlson's level-symmetric sets), one of each kind.
 struct Kind {
@@ -152,8 +152,9 @@ TransportScheme transport_scheme(Transport transport, const std::array<float, 3>
     case Transport::kFast:
       s.cell = 2;
       s.plane = true;
-      s.lookup = kLookup;
-      add(kS4, Stencil::kCharacteristic);
+      s.lookup = kUpwindLookup;
+      // So few directions need beams as wide as this stencil makes them: narrower ones leave stars.
+      add(kS4, Stencil::kUpwind);
       break;
     case Transport::kBalanced:
       s.cell = 2;

@@ -108,6 +108,19 @@ bool hit(const OpenField& field, const Float3& start, const Float3& direction, f
   return false;
 }
 
+// Keeps one of `every` planes along z.
+void thin(int every, VolumeImage* image) {
+  const std::size_t plane = bytes_of(image->type) * image->size[0] * image->size[1];
+  const int kept = (image->size[2] + every - 1) / every;
+  for (int z = 1; z < kept; ++z) {
+    std::copy_n(image->samples.data() + std::size_t(z) * every * plane, plane,
+                image->samples.data() + std::size_t(z) * plane);
+  }
+  image->samples.resize(std::size_t(kept) * plane);
+  image->size[2] = kept;
+  for (double& c : image->axes[2]) c *= every;
+}
+
 }  // namespace
 
 Image SweepScene::picture(const std::vector<float>& values) const {
@@ -116,9 +129,10 @@ Image SweepScene::picture(const std::vector<float>& values) const {
   return grey_picture(ImageView<const float>(all.data(), side, side));
 }
 
-Status load_sweep_scene(const std::string& spec, int side, const VolumeRun& run,
+Status load_sweep_scene(const SweepSource& source, int side, const VolumeRun& run,
                         SweepScene* scene) {
-  if (Status s = load_volume(spec, {}, &scene->image); !s.ok()) return s;
+  if (Status s = load_volume(source.spec, {}, &scene->image); !s.ok()) return s;
+  thin(source.every, &scene->image);
   const VolumeImage& image = scene->image;
   DistanceSettings settings;
   if (image.isovalue) {
@@ -130,6 +144,7 @@ Status load_sweep_scene(const std::string& spec, int side, const VolumeRun& run,
     if (Status s = otsu_threshold(image, histogram, &threshold); !s.ok()) return s;
     settings.isovalue = float(threshold);
   }
+  settings.isovalue += source.offset;
   if (image.solid) settings.solid = *image.solid;
   const VolumeView view = image.view();
   scene->distance.resize(std::size_t(image.voxels()));
@@ -162,7 +177,8 @@ Status load_sweep_scene(const std::string& spec, int side, const VolumeRun& run,
       scene->pixels.push_back(y * side + x);
     }
   }
-  if (scene->points.empty()) return invalid_input(spec + ": no pixel of the view hits its surface");
+  if (scene->points.empty())
+    return invalid_input(source.spec + ": no pixel of the view hits its surface");
   return {};
 }
 

@@ -26,8 +26,15 @@ struct SweepScene {
   Image picture(const std::vector<float>& values) const;
 };
 
-// Loads a volume, sweeps distances from its own isovalue or Otsu's, and traces the view.
-Status load_sweep_scene(const std::string& spec, int side, const VolumeRun& run, SweepScene* scene);
+struct SweepSource {
+  std::string spec;
+  float offset = 0;  // of the isovalue, from the volume's own or Otsu's
+  int every = 1;     // planes along z kept of so many, which makes spacing unequal
+};
+
+// Loads a volume, sweeps distances, and traces the view.
+Status load_sweep_scene(const SweepSource& source, int side, const VolumeRun& run,
+                        SweepScene* scene);
 
 }  // namespace obscura::support
 

@@ -38,6 +38,7 @@ class VisibilityFieldImpl {
   PlaneTable plane;
   std::array<int, 3> size{};
   Vec3 spacing{}, origin{};
+  Vec3 end{};  // as far before the volume's border as `origin` is behind it
   float alpha = 1;
   bool shadow = false;
   Vec3 turned[3]{};  // shadow: axes of the grid in the volume's space
@@ -83,7 +84,7 @@ class VisibilityFieldImpl {
       at.share[a][1] = inside - static_cast<float>(i);
       at.share[a][0] = 1 - at.share[a][1];
       at.outside[a][0] = std::clamp(-u, 0.0f, 1.0f);
-      at.outside[a][1] = std::clamp(u - last, 0.0f, 1.0f);
+      at.outside[a][1] = std::clamp((p[a] - end[a]) / spacing[a], 0.0f, 1.0f);
     }
     return at;
   }
@@ -192,6 +193,8 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
     f.size[a] = (distance.size[a] + cell - 1) / cell;
     f.spacing[a] = cell * distance.spacing[a];
     f.origin[a] = 0.5f * static_cast<float>(cell - 1) * distance.spacing[a];
+    // The last voxel of an odd number reaches beyond the border.
+    f.end[a] = static_cast<float>(distance.size[a] - 1) * distance.spacing[a] - f.origin[a];
   }
   const float unit = unit_of(f.spacing);
   if (f.scheme.plane) f.plane = PlaneTable(f.scheme, f.spacing, unit, settings.alpha, executor);
@@ -309,6 +312,7 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
   f.origin = low;
   for (int a = 0; a < 3; ++a) {
     f.size[a] = static_cast<int>(std::ceil((high[a] - low[a]) / side)) + 1;
+    f.end[a] = high[a];
   }
   const GridSampler sample(distance);
   std::vector<std::uint8_t> tau(f.voxels());

@@ -24,16 +24,6 @@ bool parse_numbers(std::string_view text, std::vector<double>* values) {
   }
 }
 
-// Whether a point lies on the volume's border and faces outwards: on a cut, that is.
-bool on_cut(const SurfacePoint& point, const GridView<const float>& distance) {
-  for (int a = 0; a < 3; ++a) {
-    const float last = static_cast<float>(distance.size[a] - 1) * distance.spacing[a];
-    const float p = point.position[a], n = point.normal[a];
-    if ((n == 1 && p >= last * (1 - 1e-5f)) || (n == -1 && p <= last * 1e-5f)) return true;
-  }
-  return false;
-}
-
 // Runs a loop where it is called: render_surface has its own threads.
 class InlineExecutor : public Executor {
  public:
@@ -135,29 +125,7 @@ Status VolumeShading::prepare(const VolumeImage& image, GridView<const float> di
   if (light.kind == VolumeLight::kShadow) {
     return sweep_shadow(distance, to_light_, settings, &field_, run);
   }
-  if (settings.alpha == 1) {
-    constexpr float kNothing[8] = {1e6f, 1e6f, 1e6f, 1e6f, 1e6f, 1e6f, 1e6f, 1e6f};
-    const GridView<const float> nothing(kNothing, {2, 2, 2}, {1, 1, 1});
-    if (Status s = sweep_occlusion(nothing, settings, &open_, {run.executor}); !s.ok()) return s;
-  }
   return sweep_occlusion(distance, settings, &field_, run);
-}
-
-// Everything before a cut is outside the volume and open, but a field's look-up stays inside.
-Status VolumeShading::light_cuts(std::span<const SurfacePoint> points, const VolumeRun& run,
-                                 std::span<float> light) const {
-  if (open_.empty()) return {};
-  std::vector<SurfacePoint> cut;
-  std::vector<std::size_t> at;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!on_cut(points[i], distance_)) continue;
-    cut.push_back({{0.5f, 0.5f, 0.5f}, points[i].normal});
-    at.push_back(i);
-  }
-  std::vector<float> values(cut.size());
-  if (Status s = open_.light(cut, settings_, values, run); !s.ok()) return s;
-  for (std::size_t i = 0; i < at.size(); ++i) light[at[i]] = values[i];
-  return {};
 }
 
 SurfaceShader VolumeShading::shader(const SurfaceCamera& camera) const {
@@ -180,10 +148,7 @@ SurfaceShader VolumeShading::shader(const SurfaceCamera& camera) const {
     InlineExecutor executor;
     VolumeRun run;
     run.executor = &executor;
-    if (!truth_.monte_carlo) {
-      Status s = field_.light(points, settings_, light, run);
-      return s.ok() ? light_cuts(points, run, light) : s;
-    }
+    if (!truth_.monte_carlo) return field_.light(points, settings_, light, run);
     MonteCarloSettings settings = truth_.settings;
     // Blocks of rows differ in their noise.
     settings.seed += static_cast<std::uint32_t>(first_row) * 0x9E3779B9u;

@@ -47,16 +47,12 @@ class VolumeShading {
   const VisibilityField& field() const { return field_; }
 
  private:
-  Status light_cuts(std::span<const SurfacePoint> points, const VolumeRun& run,
-                    std::span<float> light) const;
-
   GridView<const float> distance_;
   VolumeLight light_;
   VolumeTruth truth_;
   std::array<float, 3> to_light_{};  // grid space
   LightSettings settings_;
   VisibilityField field_;
-  VisibilityField open_;  // without any matter; empty where cuts are not treated apart
 };
 
 }  // namespace obscura::support

@@ -87,7 +87,10 @@ void ScanMatter(const StripJob& job) {
       const auto joined =
           hn::And(surface, hn::Le(hn::Sub(hn::Max(depth, last), hn::Min(back, last_back)),
                                   hn::Mul(slack, hn::Min(depth, last))));
-      KeepNearer(piece, &best);
+      // A piece that goes on is not compared yet: what is still to come belongs to it.
+      Piece ended = piece;
+      ended.nearest = hn::IfThenElse(joined, inf, piece.nearest);
+      KeepNearer(ended, &best);
       piece.nearest = hn::IfThenElse(
           surface, hn::IfThenElse(joined, hn::Min(piece.nearest, depth), depth), inf);
       piece.slanted = hn::IfThenElse(joined, hn::Max(piece.slanted, height), height);

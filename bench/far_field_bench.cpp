@@ -70,6 +70,45 @@ BENCHMARK(far_field_run)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+// The default K = 16x2 alone, and with the direction from the same slices beside it, in turns.
+void far_field_direction(benchmark::State& state) {
+  const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
+  const support::DepthInput input = guarded(width, height);
+  FarFieldSettings settings;
+  settings.falloff.radius = 1;
+  Estimator estimator;
+  const DepthField field = input.field();
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  std::vector<float> planes[5];
+  for (auto& plane : planes) plane.resize(pixels);
+  auto view = [&](int i) { return ImageView<float>{planes[i].data(), width, height}; };
+  Outputs plain, directed;
+  plain.visibility = directed.visibility = view(0);
+  directed.bent_normal = {view(1), view(2), view(3)};
+  directed.cone_angle = view(4);
+  if (!Estimator::create(settings, field.depth.width, field.depth.height, 1, &estimator).ok() ||
+      !estimator.run(field, directed).ok()) {
+    return state.SkipWithError("the input was refused");
+  }
+  double without = 1e9, with = 1e9;
+  for (auto _ : state) {
+    auto start = std::chrono::steady_clock::now();
+    if (!estimator.run(field, plain).ok()) return state.SkipWithError("the run failed");
+    without = std::min(without, seconds_since(start));
+    start = std::chrono::steady_clock::now();
+    if (!estimator.run(field, directed).ok()) return state.SkipWithError("the run failed");
+    with = std::min(with, seconds_since(start));
+  }
+  state.counters["without_ms"] = without * 1e3;
+  state.counters["with_ms"] = with * 1e3;
+  state.counters["overhead_%"] = (with / without - 1) * 100;
+}
+BENCHMARK(far_field_direction)
+    ->ArgName("height")
+    ->Arg(720)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
 // The first two passes, and the bytes of intermediate data.
 void far_field_scan(benchmark::State& state) {
   const int width = 1280, height = 720, interval = 10;

@@ -165,17 +165,19 @@ HWY_INLINE void AddMatter(D d, const math::Rho& rho, const Slice<V>& s, V x, V y
           d, rho, hn::Min(hn::Mul(numerator, FastReciprocal(d, denominator)), hn::Set(d, 1e30f)));
     };
     const V mean = hn::Mul(hn::Set(d, 0.5f / 32), hn::Add(rho_at(0.25f), rho_at(0.75f)));
-    const V piece =
-        hn::IfThenElse(hn::Gt(count, zero), hn::Mul(hn::Mul(count, m.span), mean), zero);
-    m.sum = hn::Add(m.sum, piece);
+    const V piece = hn::Mul(hn::Mul(count, m.span), mean);
+    auto add = [&](V& sum, V amount) HWY_ATTR {
+      sum = hn::Add(sum, hn::IfThenElseZero(hn::Gt(count, zero), amount));
+    };
+    add(m.sum, piece);
     if constexpr (kSums != SliceSums::kVisibility) {
       // What reaches above all before is new above that only.
       const M above = hn::And(hn::Lt(low.place, m.top.place), hn::Gt(high.place, m.top.place));
       V wx, wy, solid;
       DirectionsBetween<kSums>(d, s, low, SelectEdge(d, above, m.top, high), wx, wy, solid);
-      m.sum_x = hn::MulAdd(piece, wx, m.sum_x);
-      m.sum_y = hn::MulAdd(piece, wy, m.sum_y);
-      m.sum_solid = hn::MulAdd(piece, solid, m.sum_solid);
+      add(m.sum_x, hn::Mul(piece, wx));
+      add(m.sum_y, hn::Mul(piece, wy));
+      add(m.sum_solid, hn::Mul(piece, solid));
     }
     m.covered = hn::Or(m.covered, hn::BitCast(du, fresh));
   }

@@ -121,6 +121,11 @@ HWY_INLINE V RhoOf(D d, const math::Rho& rho, V distance) {
   }
 }
 
+// Of the horizon's cosine.
+inline constexpr float kLeastRise = 5e-4f;
+// Half the angle of pieces for which the middle alone is enough.
+inline constexpr float kSmallPiece = 0.25f;
+
 // Adds the next point outwards. `share` is the part of the slice's width in which the point stands,
 // 1 unless kPartial: the rest stays open, and the horizon moves by that part only.
 template <FalloffKind kKind, bool kChord, bool kPartial, SliceSums kSums = SliceSums::kVisibility,
@@ -133,12 +138,16 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   const V inverse = FastInverseSqrt(d, square);
   const V cosine = hn::Mul(y, inverse);
   const M visible = hn::And(valid, hn::Gt(cosine, h.cosine));
-  if (hn::AllFalse(d, visible)) {
+  // A cosine that rounding puts above 1 would pass as visible for ever.
+  const V c = hn::Min(cosine, one);
+  // What hardly raises the horizon, as all of a plane does, is left to the next point that does.
+  if (hn::AllFalse(d, hn::And(visible, hn::Gt(c, hn::Add(h.cosine_c, hn::Set(d, kLeastRise)))))) {
+    h.cosine = hn::IfThenElse(visible, c, h.cosine);
+    h.x = x;
+    h.y = y;
     h.chord = visible;
     return;
   }
-  // A cosine that rounding puts above 1 would pass as visible for ever.
-  const V c = hn::Min(cosine, one);
   const V sine = hn::Mul(x, inverse);
   const V angle = FastAcos(d, c);
   const M clipped = hn::Xor(hn::Lt(s.nz, zero), hn::Le(c, s.edge_cosine));
@@ -175,24 +184,27 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
     };
     const V half_piece = hn::Mul(hn::Set(d, 0.5f), hn::Sub(h.angle_c, angle_c));
     V weights = zero, values = zero;
-    V ds, dc;
-    FastSinCos(d, hn::Mul(half_piece, hn::Set(d, 0.774596669f)), ds, dc);
-    node(hn::MulAdd(mx, dc, hn::Mul(my, ds)), hn::NegMulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
-         weights, values);
     node(mx, my, 8.0f / 9, weights, values);
-    node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
-         weights, values);
+    if (!hn::AllTrue(d, hn::Lt(half_piece, hn::Set(d, kSmallPiece)))) {
+      V ds, dc;
+      FastSinCos(d, hn::Mul(half_piece, hn::Set(d, 0.774596669f)), ds, dc);
+      node(hn::MulAdd(mx, dc, hn::Mul(my, ds)), hn::NegMulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
+           weights, values);
+      node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
+           weights, values);
+    }
     V mean = hn::Mul(values, FastReciprocal(d, weights));
     if constexpr (kPartial) mean = hn::Mul(mean, share);
-    mean = hn::IfThenElseZero(hn::Gt(weight, zero), mean);
-    h.sum = hn::MulAdd(weight, mean, h.sum);
+    const M counts = hn::Gt(weight, zero);
+    auto add = [&](V& sum, V amount) HWY_ATTR {
+      sum = hn::Add(sum, hn::IfThenElseZero(counts, hn::Mul(amount, mean)));
+    };
+    add(h.sum, weight);
     if constexpr (kSums != SliceSums::kVisibility) {
-      h.sum_x = hn::MulAdd(mean, hn::Sub(h.integral_x, integral_x), h.sum_x);
-      h.sum_y = hn::MulAdd(mean, hn::Sub(h.integral_y, integral_y), h.sum_y);
+      add(h.sum_x, hn::Sub(h.integral_x, integral_x));
+      add(h.sum_y, hn::Sub(h.integral_y, integral_y));
     }
-    if constexpr (kSums == SliceSums::kUniform) {
-      h.sum_solid = hn::MulAdd(mean, hn::Sub(cosine_c, h.cosine_c), h.sum_solid);
-    }
+    if constexpr (kSums == SliceSums::kUniform) add(h.sum_solid, hn::Sub(cosine_c, h.cosine_c));
   }
   V new_cosine = c;
   if constexpr (kPartial) {

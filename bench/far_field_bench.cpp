@@ -134,6 +134,7 @@ void far_field_scan(benchmark::State& state) {
     all = 0;
     for (const far_field::Direction& d : directions) {
       far_field::scan(planes[d.transposed], d, {interval, -1, 1}, *executor, &buffer);
+      far_field::sum(planes[d.transposed], d, {interval, -1}, *executor, &buffer);
       largest = std::max(largest, buffer.bytes());
       all += buffer.bytes();
     }

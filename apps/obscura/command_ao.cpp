@@ -57,6 +57,8 @@ Status run_ao(const AoCommand& c, bool quiet) {
   support::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;
   options.progress = [&bar](double share) { return bar(share); };
+  std::vector<PassTime> pass_times;
+  if (!c.json.empty()) options.pass_times = &pass_times;
   if (Status s = run_method(settings, input, c.threads, outputs, options); !s.ok()) return s;
   const double computed = watch.seconds();
 
@@ -77,6 +79,9 @@ Status run_ao(const AoCommand& c, bool quiet) {
   if (!outputs.visibility.empty()) report.add(name, "mean visibility", mean(outputs.visibility));
   report.add(name, "time to load", 1e3 * loaded, "ms");
   report.add(name, "time to compute", 1e3 * (computed - loaded), "ms");
+  for (const PassTime& t : pass_times) {
+    report.add(name, fmt::format("time to compute, {}", t.name), t.milliseconds, "ms");
+  }
   report.add(name, "time to write", 1e3 * (total - computed), "ms");
   if (!quiet && c.json != "-") {
     fmt::print("{}: {}x{}, {}{}, {:.2f} s\n", c.output, field.visible_width(),

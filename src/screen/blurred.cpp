@@ -21,7 +21,8 @@ class Blurred final : public Method {
     Outputs inner = outputs;
     inner.visibility = filter_.input();
     if (Status s = method_->run(g, inner, context); !s.ok()) return s;
-    filter_.run(g, edge_, context.executor, outputs.visibility);
+    context.timer.time("blur",
+                       [&] { filter_.run(g, edge_, context.executor, outputs.visibility); });
     return {};
   }
 

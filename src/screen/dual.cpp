@@ -28,11 +28,14 @@ class Dual final : public Method {
     auto part = [&](int i) -> const std::function<bool(double)>& {
       return context.progress ? halves[i] : none;
     };
-    if (Status s = first_->run(g, {.visibility = out}, {context.executor, part(0)}); !s.ok()) {
+    if (Status s = first_->run(g, {.visibility = out}, {context.executor, part(0), context.timer});
+        !s.ok()) {
       return s;
     }
     const ImageView<float> other(other_.data(), width, height, other_.stride());
-    if (Status s = second_->run(g, {.visibility = other}, {context.executor, part(1)}); !s.ok()) {
+    if (Status s =
+            second_->run(g, {.visibility = other}, {context.executor, part(1), context.timer});
+        !s.ok()) {
       return s;
     }
     context.executor.parallel_for(height, [&](int y, int) {

@@ -157,12 +157,14 @@ class EstimatorImpl {
     }
     view::Needs needs = method_->needs();
     needs.normals = needs.normals || !outputs.normal.empty();
-    if (Status s = view::convert(field, needs, *executor, &geometry_); !s.ok()) return s;
+    const PassTimer timer(options.pass_times);
+    Status status;
+    timer.time("convert", [&] { status = view::convert(field, needs, *executor, &geometry_); });
+    if (!status.ok()) return status;
     if (Status s = check_outputs(outputs, field, method_->output_kinds()); !s.ok()) return s;
-    if (Status s = method_->run(geometry_, outputs, {*executor, options.progress}); !s.ok()) {
-      return s;
-    }
-    fill_background(geometry_, outputs, *executor);
+    const RunContext context{*executor, options.progress, timer};
+    if (Status s = method_->run(geometry_, outputs, context); !s.ok()) return s;
+    timer.time("background", [&] { fill_background(geometry_, outputs, *executor); });
     if (!outputs.normal.empty()) copy_normals(geometry_, outputs.normal, *executor);
     return {};
   }

@@ -1,6 +1,7 @@
 #ifndef OBSCURA_SRC_SCREEN_METHOD_H_
 #define OBSCURA_SRC_SCREEN_METHOD_H_
 
+#include "core/pass_timer.h"
 #include "core/progress.h"
 #include "obscura/outputs.h"
 #include "obscura/status.h"
@@ -21,6 +22,7 @@ struct OutputKinds {
 struct RunContext {
   Executor& executor;
   const std::function<bool(double)>& progress;
+  PassTimer timer{};
 };
 
 // A screen-space estimator behind the public Estimator, which checks sizes and outputs, converts

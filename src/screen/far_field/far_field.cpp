@@ -141,25 +141,30 @@ class FarFieldMethod final : public Method {
         .cosine = !o.cosine_integral.empty()};
     if (o.visibility.empty() && !wanted_.uniform && !wanted_.cosine) return {};
     Executor& executor = context.executor;
-    prepare(g, executor);
+    const PassTimer& timer = context.timer;
+    if (grouped()) timer.time("average", [&] { average_groups(g, executor, &groups_); });
+    timer.time("fill", [&] { prepare(g, executor); });
     Progress progress(static_cast<std::int64_t>(directions_.size()), context.progress);
     const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
                                      settings_.line_step};
     for (const Direction& direction : directions_) {
       Plane& plane = planes_[direction.transposed];
-      scan(plane, direction, scan_settings, executor, &buffer_);
-      evaluate(direction, executor, &plane);
+      timer.time("scan", [&] { scan(plane, direction, scan_settings, executor, &buffer_); });
+      timer.time("sum", [&] { sum(plane, direction, scan_settings, executor, &buffer_); });
+      timer.time("evaluate", [&] { evaluate(direction, executor, &plane); });
       if (!progress.advance()) return {StatusCode::kCancelled, "stopped by the caller"};
     }
-    collect(planes_, &Plane::sums, wanted_, executor, &totals_);
+    timer.time("collect", [&] { collect(planes_, &Plane::sums, wanted_, executor, &totals_); });
     if (separable()) {
-      collect(planes_, &Plane::far_sums, wanted_, executor, &spare_);
-      gather(groups_, spare_, wanted_, executor, &totals_);
+      timer.time("gather", [&] {
+        collect(planes_, &Plane::far_sums, wanted_, executor, &spare_);
+        gather(groups_, spare_, wanted_, executor, &totals_);
+      });
     }
     if (grouped() && settings_.blur) {
-      blur_selectively(groups_, wanted_, executor, &totals_, &spare_);
+      timer.time("blur", [&] { blur_selectively(groups_, wanted_, executor, &totals_, &spare_); });
     }
-    finish(g, totals_, settings_.cone, executor, o);
+    timer.time("write", [&] { finish(g, totals_, settings_.cone, executor, o); });
     return {};
   }
 
@@ -170,7 +175,6 @@ class FarFieldMethod final : public Method {
   void prepare(const view::Geometry& g, Executor& executor) {
     const ReceiverSource pixels{
         &g.depth, {&g.normal_x, &g.normal_y, &g.normal_z}, g.guard_band.left, g.guard_band.top};
-    if (grouped()) average_groups(g, executor, &groups_);
     const ReceiverSource means{
         &groups_.depth, {&groups_.normal[0], &groups_.normal[1], &groups_.normal[2]}, 0, 0};
     for (bool transposed : {false, true}) {

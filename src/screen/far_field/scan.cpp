@@ -132,17 +132,11 @@ void scan(const Plane& plane, const Direction& direction, const ScanSettings& se
           Executor& executor, ScanBuffer* buffer) {
   buffer->resize(plane, direction, settings.interval, settings.line_step);
   const LineLayout layout(plane, direction, settings.line_step);
-  const float slope = settings.receiver_slope < 0 ? 1.0f : -1.0f, slack = join_slack(plane);
-  auto sum = [&](int level, int strip) {
-    if (plane.finite) return;
-    sum_lines(layout.lines, buffer->phases(), buffer->phase_stride(), slope,
-              buffer->raw(level, strip, 0), buffer->sums(level, strip, 0));
-  };
+  const float slack = join_slack(plane);
   executor.parallel_for(buffer->strips(0), [&](int strip, int) {
     for (int phase = 0; phase < buffer->phases(); ++phase) {
       scan_phase(plane, direction, layout, settings, strip, phase, buffer);
     }
-    sum(0, strip);
   });
   for (int level = 1; level < buffer->levels(); ++level) {
     executor.parallel_for(buffer->strips(level), [&](int strip, int) {
@@ -161,9 +155,21 @@ void scan(const Plane& plane, const Direction& direction, const ScanSettings& se
         plane.finite ? merge_matter(lines, slack, first, second, out)
                      : merge_strips(lines, first, second, out);
       }
-      sum(level, strip);
     });
   }
+}
+
+void sum(const Plane& plane, const Direction& direction, const ScanSettings& settings,
+         Executor& executor, ScanBuffer* buffer) {
+  if (plane.finite) return;
+  const LineLayout layout(plane, direction, settings.line_step);
+  const float slope = settings.receiver_slope < 0 ? 1.0f : -1.0f;
+  executor.parallel_for(buffer->all_strips(), [&](int index, int) {
+    int level = 0, strip = index;
+    while (strip >= buffer->strips(level)) strip -= buffer->strips(level++);
+    sum_lines(layout.lines, buffer->phases(), buffer->phase_stride(), slope,
+              buffer->raw(level, strip, 0), buffer->sums(level, strip, 0));
+  });
 }
 
 }  // namespace obscura::far_field

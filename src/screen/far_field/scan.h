@@ -48,6 +48,7 @@ class ScanBuffer {
   int phase_lines() const { return phase_lines_; }  // lines per phase, rounded up
   int levels() const { return static_cast<int>(level_start_.size()) - 1; }
   int strips(int level) const { return level_start_[level + 1] - level_start_[level]; }
+  int all_strips() const { return level_start_.back(); }  // of all levels
   PrefixSums sums(int level, int strip, int phase);
   RawStrip raw(int level, int strip, int phase);
   // From one phase to the next.
@@ -77,9 +78,13 @@ struct ScanSettings {
   int line_step = 1;   // every n-th line is scanned; divides the plane's phases
 };
 
-// Algorithm 1 in parallel lines, the pyramid, and section 7's sums over lines.
+// Algorithm 1 in parallel lines, and the pyramid.
 void scan(const Plane& plane, const Direction& direction, const ScanSettings& settings,
           Executor& executor, ScanBuffer* buffer);
+
+// Section 7's sums over lines of every strip that was scanned. Finite occluders have none.
+void sum(const Plane& plane, const Direction& direction, const ScanSettings& settings,
+         Executor& executor, ScanBuffer* buffer);
 
 }  // namespace obscura::far_field
 

@@ -17,7 +17,7 @@ class MipmapMethod final : public Method {
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};
-    build(g, context.executor);
+    context.timer.time("pyramid", [&] { build(g, context.executor); });
     MipmapFrame f;
     f.geometry = &g;
     f.rho = &rho_;
@@ -31,11 +31,13 @@ class MipmapMethod final : public Method {
     const int width = g.visible_width(), height = g.visible_height();
     rows_.resize(width, height);
     Progress progress(height, context.progress);
-    context.executor.parallel_for(height, [&](int y, int) {
-      if (progress.cancelled()) return;
-      mipmap_row(f, y, rows_.row(y));
-      for (int x = 0; x < width; ++x) outputs.visibility(x, y) = rows_(x, y);
-      progress.advance();
+    context.timer.time("evaluate", [&] {
+      context.executor.parallel_for(height, [&](int y, int) {
+        if (progress.cancelled()) return;
+        mipmap_row(f, y, rows_.row(y));
+        for (int x = 0; x < width; ++x) outputs.visibility(x, y) = rows_(x, y);
+        progress.advance();
+      });
     });
     if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
     return {};

@@ -121,7 +121,9 @@ void scan_all(const Occluder& occluder, const Check& check) {
     ScanBuffer buffer;
     for (const Direction& d : directions) {
       if (d.transposed != c.transposed) continue;
-      scan(plane, d, {c.interval, c.receiver_slope, c.line_step}, *executor, &buffer);
+      const ScanSettings scan_settings{c.interval, c.receiver_slope, c.line_step};
+      scan(plane, d, scan_settings, *executor, &buffer);
+      sum(plane, d, scan_settings, *executor, &buffer);
       check(g, plane, d, LineLayout(plane, d, c.line_step), c, &buffer);
     }
   }

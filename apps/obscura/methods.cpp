@@ -30,6 +30,8 @@ const std::vector<MethodEntry>& methods() {
        MipmapSettings{}},
       {"hemisphere", "Directions marched in depth: bent normals and cones (Klehm et al. 2011)",
        HemisphereSettings{}},
+      {"horizon", "Horizon-based ambient occlusion (Bavoil 2008) and cosine-weighted slices",
+       HorizonSettings{}},
       {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
       {"point", "Volumetric obscurance by point samples (Mittring 2007)", PointSettings{}},
       {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},

@@ -8,6 +8,7 @@
 #include "obscura/depth_field.h"
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
+#include "obscura/horizon.h"
 #include "obscura/line.h"
 #include "obscura/mipmap.h"
 #include "obscura/outputs.h"
@@ -18,8 +19,9 @@
 namespace obscura {
 
 // One alternative per method; docs/settings.md lists their fields.
-using MethodSettings = std::variant<AreaSettings, FarFieldSettings, HemisphereSettings,
-                                    LineSettings, MipmapSettings, PointSettings, ReferenceSettings>;
+using MethodSettings =
+    std::variant<AreaSettings, FarFieldSettings, HemisphereSettings, HorizonSettings, LineSettings,
+                 MipmapSettings, PointSettings, ReferenceSettings>;
 
 class EstimatorImpl;
 

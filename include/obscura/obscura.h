@@ -14,6 +14,7 @@
 #include "obscura/falloff.h"
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
+#include "obscura/horizon.h"
 #include "obscura/lighting.h"
 #include "obscura/line.h"
 #include "obscura/mipmap.h"

@@ -9,6 +9,7 @@
 #include "screen/dual.h"
 #include "screen/far_field/far_field.h"
 #include "screen/hemisphere/hemisphere.h"
+#include "screen/horizon/horizon.h"
 #include "screen/line/line.h"
 #include "screen/method.h"
 #include "screen/mipmap/mipmap.h"
@@ -57,6 +58,12 @@ Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>*
 
 Status make_method(const HemisphereSettings& s, int w, int h, std::unique_ptr<Method>* m) {
   return make_hemisphere(s, w, h, m);
+}
+
+Status make_method(const HorizonSettings& s, int w, int h, std::unique_ptr<Method>* m) {
+  if (Status status = make_horizon(s, m); !status.ok()) return status;
+  if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
+  return {};
 }
 
 Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {

@@ -1,0 +1,57 @@
+#ifndef OBSCURA_HORIZON_H_
+#define OBSCURA_HORIZON_H_
+
+#include <cstdint>
+
+#include "obscura/falloff.h"
+#include "obscura/far_field.h"
+
+namespace obscura {
+
+enum class HorizonVariant {
+  // Half-slices around the receiver's zenith, each with the cosine-weighted integral above its
+  // horizon. Matter hangs below each sample away from the camera, without end, as in the solid
+  // depth field; what of it lies beyond the falloff's length does not count, what lies within does.
+  kSlices,
+  // Horizon-based ambient occlusion as published: uniform weights, samples beyond the radius are
+  // dropped, each rise of the horizon counts by W(r) = 1 - (r/R)^2. Takes only the radius from the
+  // falloff, which must be finite.
+  kClassic,
+};
+template <>
+struct EnumNames<HorizonVariant> {
+  static constexpr const char* names[] = {"slices", "classic"};
+};
+
+// Ambient obscurance from horizons (Bavoil, Sainz, Dimitrov, "Image-space horizon-based ambient
+// occlusion", 2008) and its stronger relative: a few samples along each of K directions, which
+// m x m neighbouring pixels turn and shift by different parts of a direction and of a step.
+struct HorizonSettings {
+  Falloff falloff{};  // slices: any
+  HorizonVariant variant = HorizonVariant::kSlices;
+  SlabProfile profile = SlabProfile::kAdaptiveChord;  // slices, falloffs other than constant
+  int directions = 8;                                 // K
+  int steps = 8;                                      // samples per direction
+  float angle_bias = 0.1f;  // classic: radians above the tangent plane that do not count
+  int interleave = 4;       // m
+  bool blur = true;
+  std::uint32_t seed = 1;
+};
+template <FieldsOf<HorizonSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  v(s.variant, Field{"variant", "", {}, "Cosine-weighted slices, or the published method."});
+  v(s.profile, Field{"profile", "", {}, "Where matter is between two points of a slice."});
+  v(s.directions, Field{"directions", "", closed(2, 64), "Azimuthal directions K."});
+  v(s.steps, Field{"steps", "per direction", closed(1, 64), "Samples along each direction."});
+  v(s.angle_bias, Field{"angle_bias", "radians", closed(0, 1.5),
+                        "Classic: how far a sample must rise above the tangent plane to count."});
+  v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
+                        "Size m of the m x m pixels that share one larger pattern."});
+  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+}
+
+}  // namespace obscura
+
+#endif  // OBSCURA_HORIZON_H_

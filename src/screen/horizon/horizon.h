@@ -1,0 +1,17 @@
+#ifndef OBSCURA_SRC_SCREEN_HORIZON_HORIZON_H_
+#define OBSCURA_SRC_SCREEN_HORIZON_HORIZON_H_
+
+#include <memory>
+
+#include "obscura/horizon.h"
+#include "screen/method.h"
+
+namespace obscura {
+
+// Horizon-based ambient obscurance; settings and paper: obscura/horizon.h. The blur is not part of
+// it (see screen/blurred.h).
+Status make_horizon(const HorizonSettings& settings, std::unique_ptr<Method>* method);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_SCREEN_HORIZON_HORIZON_H_

@@ -1,0 +1,240 @@
+// Properties of horizon-based ambient obscurance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "obscura/obscura.h"
+#include "tests/property/reference_scenes.h"
+#include "tests/property/synthetic.h"
+
+namespace obscura {
+namespace {
+
+using reference_scenes::Scene;
+using reference_scenes::Vec;
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+std::vector<float> visibility(const synthetic::Input& in, const MethodSettings& settings,
+                              int threads = 0) {
+  const DepthField field = in.field();
+  const int w = field.visible_width(), h = field.visible_height();
+  std::vector<float> v(static_cast<std::size_t>(w) * h, -1.0f);
+  Outputs outputs;
+  outputs.visibility = {v.data(), w, h};
+  RunOptions options;
+  const auto executor = make_executor(threads);
+  options.executor = executor.get();
+  const Status s = compute(field, settings, outputs, options);
+  EXPECT_TRUE(s.ok()) << s.message();
+  return v;
+}
+
+HorizonSettings dense() {
+  HorizonSettings s;
+  s.directions = 32;
+  s.steps = 64;
+  s.interleave = 1;
+  s.blur = false;
+  s.angle_bias = 0;
+  return s;
+}
+
+double mean_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+// An upright V with this opening, its edge on the middle column of texel centres.
+Scene groove(double degrees) {
+  const double half = degrees / 2 * std::numbers::pi / 180;
+  const GuardBand guard = GuardBand::symmetric(12, 10);
+  const Camera camera = Camera::perspective(0.9f, 97, 71, guard);
+  const Vec right{-std::cos(half), 0, std::sin(half)}, left{std::cos(half), 0, std::sin(half)};
+  const double offset = -3 * std::sin(half);
+  return reference_scenes::room(121, 91, camera, guard, {right, left}, {offset, offset});
+}
+
+TEST(Horizon, PlanesAreOpenAtAnyTilt) {
+  Random random(1);
+  for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    for (int i = 0; i < 14; ++i) {
+      Camera camera = Camera::perspective(1.0f, 90, 60);
+      if (i % 2) camera = Camera::orthographic_height(4, 90, 60);
+      const double tilt = 0.1 * i, turn = 6.28 * random.uniform();
+      const synthetic::Input in =
+          synthetic::plane(90, 60, camera, std::sin(tilt) * std::cos(turn),
+                           std::sin(tilt) * std::sin(turn), std::cos(tilt), 5);
+      for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+        HorizonSettings s;
+        s.variant = variant;
+        s.falloff = {.kind = kind, .radius = 10};
+        s.angle_bias = 0;
+        const std::vector<float> v = visibility(in, s);
+        EXPECT_GT(*std::min_element(v.begin(), v.end()), 0.995f) << tilt << " " << i;
+      }
+    }
+  }
+}
+
+// Cosine-weighted, the walls being the polygons that the image holds.
+TEST(Horizon, SlicesAgreeWithTheClosedFormOfGrooves) {
+  for (double degrees : {60, 90, 120, 150}) {
+    const Scene scene = groove(degrees);
+    for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+      HorizonSettings s = dense();
+      s.falloff = {.kind = kind, .radius = kInf};
+      const std::vector<float> v = visibility(scene.input, s);
+      double sum = 0;
+      int count = 0;
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        if (std::isnan(scene.truth[i])) continue;
+        sum += std::abs(v[i] - scene.truth[i]);
+        ++count;
+      }
+      EXPECT_LT(sum / count, 0.01) << degrees;
+    }
+  }
+}
+
+// Uniform weights: a groove of opening phi leaves phi / pi of the hemisphere of the solid angle, as
+// far as its walls reach; the attenuation is 1 beside a radius that is far longer than the scene.
+TEST(Horizon, ClassicAgreesWithTheSolidAngleOfGrooves) {
+  for (double degrees : {90, 120, 150}) {
+    const Scene scene = groove(degrees);
+    HorizonSettings s = dense();
+    s.variant = HorizonVariant::kClassic;
+    s.falloff.radius = 100;
+    const std::vector<float> v = visibility(scene.input, s);
+    // The pixel beside the edge sees the opposite wall as if it had no end.
+    EXPECT_NEAR(v[35 * 97 + 50], degrees / 180, 0.03) << degrees;
+  }
+}
+
+// Two independent ways: the reference traces rays through the same depth field.
+TEST(Horizon, SlicesAgreeWithRaysThroughTheDepthField) {
+  const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 4);
+  for (const auto& [kind, radius, limit] : {std::tuple{FalloffKind::kConstant, 0.5f, 0.02},
+                                            {FalloffKind::kConstant, kInf, 0.02},
+                                            {FalloffKind::kExponential, 0.3f, 0.02},
+                                            {FalloffKind::kQuadratic, 1.0f, 0.02}}) {
+    ReferenceSettings truth;
+    truth.falloff = {.kind = kind, .radius = radius};
+    HorizonSettings s = dense();
+    s.falloff = truth.falloff;
+    EXPECT_LT(mean_difference(visibility(in, s), visibility(in, truth)), limit)
+        << enum_name(kind) << " " << radius;
+  }
+}
+
+// A plate far in front of a wall, farther than the radius: the published method drops it, the
+// solid depth field hangs its matter through the sphere.
+TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
+  synthetic::Input in =
+      synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);
+  in.normals.clear();
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 80; ++x) in.depth[y * 160 + x] = 5;
+  }
+  HorizonSettings s = dense();
+  s.falloff = {.kind = FalloffKind::kConstant, .radius = 1};
+  const std::size_t beside = 60 * 160 + 81;
+  // A wall x = 1.5 pixels away fills the azimuths |phi| < m = acos x, and there the zenith angles
+  // beyond asin(x / cos phi): 1/(2 pi) integral of 1 - (x / cos phi)^2 = (m - x^2 tan m) / pi.
+  const double x = 1.5 * in.camera.scale_x * 10, m = std::acos(x);
+  EXPECT_NEAR(visibility(in, s)[beside], 1 - (m - x * x * std::tan(m)) / std::numbers::pi, 0.03);
+  s.variant = HorizonVariant::kClassic;
+  EXPECT_NEAR(visibility(in, s)[beside], 1, 1e-3);
+}
+
+// Down to what single texels in place of interpolated ones cost.
+TEST(Horizon, MoreSamplesComeCloserToTheTruth) {
+  const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 8);
+  ReferenceSettings truth;
+  truth.falloff.radius = 0.3f;
+  const std::vector<float> expected = visibility(in, truth);
+  double before = 1;
+  for (int n : {4, 8, 16}) {
+    HorizonSettings s = dense();
+    s.falloff.radius = 0.3f;
+    s.directions = s.steps = n;
+    const double error = mean_difference(visibility(in, s), expected);
+    EXPECT_LT(error, before) << n;
+    before = error;
+  }
+}
+
+TEST(Horizon, BitsDoNotDependOnThreads) {
+  const synthetic::Input in = synthetic::blocks(130, 90, Camera::perspective(1.2f, 130, 90), 7);
+  for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    HorizonSettings s;
+    s.variant = variant;
+    const std::vector<float> one = visibility(in, s, 1), three = visibility(in, s, 3);
+    EXPECT_EQ(std::memcmp(one.data(), three.data(), one.size() * sizeof(float)), 0);
+  }
+}
+
+TEST(Horizon, ExtremesHaveDefinedValues) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {40, 1}, {1, 40}, {33, 17}}) {
+    for (float fov : {0.087f, 2.62f}) {
+      for (double scale : {1e-3, 1.0, 1e6}) {
+        synthetic::Input in = synthetic::blocks(w, h, Camera::perspective(fov, w, h), 5);
+        for (std::size_t i = 0; i < in.depth.size(); ++i) {
+          in.depth[i] *= static_cast<float>(i % 7 == 0 ? 1e-3 : scale);
+        }
+        for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+          for (float radius : {1e-6f, 1.0f, 1e6f}) {
+            for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+              HorizonSettings s;
+              s.variant = variant;
+              s.falloff = {.kind = kind, .radius = radius};
+              for (float v : visibility(in, s)) EXPECT_TRUE(v >= 0 && v <= 1);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Horizon, BackgroundIsOpenAndDoesNotOcclude) {
+  synthetic::Input in = synthetic::plane(80, 60, Camera::perspective(1.0f, 80, 60), 0, 0, 1, 10);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      if (x < 20 || x >= 60 || y < 10) in.depth[y * 80 + x] = kInf;
+    }
+  }
+  for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    HorizonSettings s;
+    s.variant = variant;
+    s.falloff.radius = 10;
+    const std::vector<float> v = visibility(in, s);
+    EXPECT_GT(*std::min_element(v.begin(), v.end()), 0.999f);
+  }
+}
+
+TEST(Horizon, RefusesWrongSettings) {
+  auto refused = [](auto change) {
+    HorizonSettings s;
+    change(s);
+    Estimator e;
+    return !Estimator::create(s, 8, 8, 1, &e).ok();
+  };
+  EXPECT_FALSE(refused([](auto&) {}));
+  EXPECT_TRUE(refused([](auto& s) { s.directions = 1; }));
+  EXPECT_TRUE(refused([](auto& s) { s.steps = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.interleave = 9; }));
+  EXPECT_TRUE(refused([](auto& s) { s.angle_bias = -1; }));
+  EXPECT_TRUE(refused([](auto& s) { s.falloff.radius = 0; }));
+  EXPECT_TRUE(refused([](auto& s) {
+    s.variant = HorizonVariant::kClassic;
+    s.falloff.radius = kInf;
+  }));
+}
+
+}  // namespace
+}  // namespace obscura

@@ -20,7 +20,7 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-void BySums(const math::Rho& rho, const SliceSet& set, float* HWY_RESTRICT out) {
+void ByQuadrature(const math::Rho& rho, const SliceSet& set, float* HWY_RESTRICT out) {
   const D d;
   for (int s = 0; s < set.count; s += static_cast<int>(hn::Lanes(d))) {
     const auto slice = om::MakeSlice(d, hn::LoadU(d, &set.nz[s]), hn::LoadU(d, &set.nt[s]),
@@ -129,7 +129,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace obscura::bench {
 
-HWY_EXPORT(BySums);
+HWY_EXPORT(ByQuadrature);
 HWY_EXPORT(ByTable);
 
 SlabTable::SlabTable(const math::Rho& rho, int n) : size(n), radius(rho.radius) {
@@ -162,7 +162,7 @@ SlabTable::SlabTable(const math::Rho& rho, int n) : size(n), radius(rho.radius) 
 void evaluate_slices(const math::Rho& rho, const SlabTable* table, const SliceSet& set,
                      float* out) {
   if (table) return HWY_DYNAMIC_DISPATCH(ByTable)(*table, set, out);
-  HWY_DYNAMIC_DISPATCH(BySums)(rho, set, out);
+  HWY_DYNAMIC_DISPATCH(ByQuadrature)(rho, set, out);
 }
 
 }  // namespace obscura::bench

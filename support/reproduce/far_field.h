@@ -7,7 +7,9 @@
 namespace obscura::support {
 
 Status reproduce_ffao_table1(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_ffao_table2(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_ffao_table3(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_ffao_table4(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_ffao_fig7(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_error_vs_time(const ReproduceContext& context, Report* report, std::string* text);
 

@@ -1,5 +1,6 @@
 // obscura light: a depth image, mesh or scene lit by an environment through its ambient visibility.
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 
@@ -8,8 +9,10 @@
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
 #include "fmt/format.h"
+#include "obscura/importance.h"
 #include "obscura/lighting.h"
 #include "support/files/files.h"
+#include "support/lighting/comparators.h"
 #include "support/lighting/convolution_cache.h"
 #include "support/progress/progress_bar.h"
 #include "support/progress/stopwatch.h"
@@ -24,7 +27,8 @@ struct LightCommand {
   std::string environment, output, json;
   std::string albedo = "1,1,1", sun_direction, sun_irradiance = "3,3,3";
   double sun_radius_deg = 0.27, heading_deg = 0, pitch_deg = 0, exposure = 0;
-  bool cosine_cones = false, no_background = false, no_cache = false, half = false;
+  std::string cones = "cosine", comparator = "none";
+  bool no_background = false, no_cache = false, half = false;
   int threads = 0;
 };
 
@@ -43,6 +47,16 @@ Status parse_three(const char* option, const std::string& text, double min, floa
     at = comma + 1;
   }
   return {};
+}
+
+Status one_of(const char* option, const std::string& value,
+              std::initializer_list<const char*> choices) {
+  std::string list;
+  for (const char* choice : choices) {
+    if (value == choice) return {};
+    list += (list.empty() ? "" : ", ") + std::string(choice);
+  }
+  return invalid_argument(fmt::format("{} is '{}'; it must be one of {}", option, value, list));
 }
 
 // Eye space to world space: a scene's own camera, then the camera's pitch and heading.
@@ -85,7 +99,7 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
   Outputs outputs;
   outputs.visibility = b->visibility;
   const bool bent = technique != LightingTechnique::kAmbientOcclusion;
-  if (bent && c.cosine_cones) {
+  if (bent && c.cones == "cosine") {
     outputs.cosine_integral = b->bent;
   } else if (bent) {
     outputs.bent_normal = b->bent;
@@ -93,7 +107,10 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
   }
   const bool library = std::holds_alternative<MethodSettings>(method);
   if (library) outputs.normal = b->normal;
-  if (Status s = run_method(method, input, c.threads, outputs, options); !s.ok()) return s;
+  if (Status s = run_method(method, input, c.threads, outputs, options); !s.ok()) {
+    if (s.code() != StatusCode::kUnsupported || !bent || c.cones != "cosine") return s;
+    return {s.code(), fmt::format("{}; --cones mean does with bent-normal", s.message())};
+  }
   if (!library) {
     for (int y = 0; y < field.visible_height(); ++y) {
       for (int x = 0; x < field.visible_width(); ++x) {
@@ -104,10 +121,58 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
       }
     }
   }
-  if (bent && c.cosine_cones) {
+  if (bent && c.cones == "cosine") {
     return cones_from_cosine_integral(b->visibility, b->bent, b->bent, b->angle, options);
   }
   return {};
+}
+
+// Light by what cones are compared with; the sun is the convolved light's.
+Status light_by_comparator(const LightCommand& c, AnySettings method, const LoadedInput& input,
+                           const Environment& map, const PreconvolvedEnvironment& lights,
+                           const std::array<float, 9>& m, support::Image* image,
+                           const RunOptions& options) {
+  Environment environment;
+  if (Status s = map.with_sun(lights.sun(), &environment); !s.ok()) return s;
+  const VectorView<float> out{image->view(0), image->view(1), image->view(2)};
+  auto* library = std::get_if<MethodSettings>(&method);
+  auto* hemisphere = library ? std::get_if<HemisphereSettings>(library) : nullptr;
+  auto* reference = library ? std::get_if<ReferenceSettings>(library) : nullptr;
+  if (c.comparator == "importance" && hemisphere) {
+    ImportanceSettings settings{.falloff = hemisphere->falloff,
+                                .occluder = hemisphere->occluder,
+                                .samples = hemisphere->samples,
+                                .steps = std::max(hemisphere->steps, 1),
+                                .interleave = hemisphere->interleave,
+                                .blur = hemisphere->blur,
+                                .seed = hemisphere->seed,
+                                .world_from_eye = m};
+    return light_by_importance(input.field(), environment, settings, out, options);
+  }
+  if (c.comparator == "samples" && hemisphere) {
+    hemisphere->radiance = support::light_of_samples(lights, hemisphere->samples, m);
+  } else if (c.comparator == "samples" && reference) {
+    reference->radiance = support::light_of_rays(environment, m);
+  } else {
+    return invalid_argument(
+        fmt::format("--comparator {} needs --method hemisphere{}, not {}", c.comparator,
+                    c.comparator == "samples" ? " or ray-traced" : "", c.method.method()));
+  }
+  Outputs outputs;
+  outputs.radiance = out;
+  return run_method(method, input, c.threads, outputs, options);
+}
+
+// Light by a technique from what the estimator has left in the buffers.
+Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment& lights,
+                          const LightingSettings& settings, support::Image* image,
+                          const RunOptions& options) {
+  LightingInputs inputs;
+  inputs.visibility = buffers.visibility;
+  inputs.normal = buffers.normal;
+  inputs.bent_normal = buffers.bent;
+  inputs.cone_angle = buffers.angle;
+  return light(inputs, lights, settings, {image->view(0), image->view(1), image->view(2)}, options);
 }
 
 // Background pixels show the environment along their rays, or black.
@@ -181,6 +246,10 @@ Status run_light(const LightCommand& c, bool quiet) {
   if (Status s = c.method.settings(&method); !s.ok()) return s;
   if (Status s = c.lighting.read(&settings); !s.ok()) return s;
   if (Status s = parse_three("--albedo", c.albedo, 0, albedo); !s.ok()) return s;
+  if (Status s = one_of("--cones", c.cones, {"cosine", "mean"}); !s.ok()) return s;
+  if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
+    return s;
+  }
   if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
   support::EnvironmentSource source;
   if (Status s = support::open_environment(c.environment, &source); !s.ok()) return s;
@@ -210,45 +279,39 @@ Status run_light(const LightCommand& c, bool quiet) {
   LoadedInput input;
   if (Status s = c.input.load(layer_needs(method), c.threads, &input); !s.ok()) return s;
   const double loaded = watch.seconds();
-  Buffers buffers(input.field());
-  support::ProgressBar bar(c.method.method(), !quiet);
-  RunOptions options;
-  options.progress = [&bar](double share) { return bar(share); };
-  if (Status s = estimate(c, method, input, settings.technique, &buffers, options); !s.ok()) {
-    return s;
-  }
-  const double estimated = watch.seconds();
-
   settings.world_from_eye = world_from_eye(c, input);
-  support::Image image(buffers.image.width, buffers.image.height);
-  for (const char* name : {"R", "G", "B"}) image.add(name);
-  LightingInputs inputs;
-  inputs.visibility = buffers.visibility;
-  inputs.normal = buffers.normal;
-  inputs.bent_normal = buffers.bent;
-  inputs.cone_angle = buffers.angle;
-  // One texel for all pixels.
-  const int w = image.width, h = image.height;
-  inputs.albedo = {ImageView<const float>(albedo, w, h, 0, 0),
-                   ImageView<const float>(albedo + 1, w, h, 0, 0),
-                   ImageView<const float>(albedo + 2, w, h, 0, 0)};
-  RunOptions with_threads;
-  with_threads.executor = executor.get();
-  if (Status s = light(inputs, lights, settings, {image.view(0), image.view(1), image.view(2)},
-                       with_threads);
-      !s.ok()) {
-    return s;
-  }
-  const double lit = watch.seconds();
-
   Environment environment;
-  if (!c.no_background) {
+  const bool compared = c.comparator != "none";
+  if (compared || !c.no_background) {
     EnvironmentRepairs same;
     if (Status s = support::load_environment(source, &environment, &same, executor.get());
         !s.ok()) {
       return s;
     }
   }
+
+  Buffers buffers(input.field());
+  const int w = buffers.image.width, h = buffers.image.height;
+  support::Image image(w, h);
+  for (const char* name : {"R", "G", "B"}) image.add(name);
+  support::ProgressBar bar(c.method.method(), !quiet);
+  RunOptions options;
+  options.progress = [&bar](double share) { return bar(share); };
+  const double prepared = watch.seconds();
+  Status status = compared ? light_by_comparator(c, method, input, environment, lights,
+                                                 settings.world_from_eye, &image, options)
+                           : estimate(c, method, input, settings.technique, &buffers, options);
+  if (!status.ok()) return status;
+  const double estimated = watch.seconds();
+  RunOptions with_threads;
+  with_threads.executor = executor.get();
+  if (!compared) status = light_by_technique(buffers, lights, settings, &image, with_threads);
+  if (!status.ok()) return status;
+  for (int k = 0; k < 3; ++k) {
+    for (float& v : image.channels[k].values) v *= albedo[k];
+  }
+  const double lit = watch.seconds();
+
   fill_background(input, settings.world_from_eye, c.no_background ? nullptr : &environment, &image);
   if (support::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
   support::WriteOptions write;
@@ -263,11 +326,11 @@ Status run_light(const LightCommand& c, bool quiet) {
   visit_fields(settings, [&](const auto& value, const Field& field) {
     report.settings[field.name] = write_setting(value);
   });
-  const std::string name = enum_name(settings.technique);
+  const std::string name = compared ? c.comparator : enum_name(settings.technique);
   report.add(name, from_cache ? "time to read the convolution" : "time to convolve",
              1e3 * convolved, "ms");
   report.add(name, "time to load", 1e3 * (loaded - convolved), "ms");
-  report.add(name, "time to compute", 1e3 * (estimated - loaded), "ms");
+  report.add(name, "time to compute", 1e3 * (estimated - prepared), "ms");
   report.add(name, "time to light", 1e3 * (lit - estimated), "ms");
   if (!quiet && c.json != "-") {
     fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, w, h, name, c.method.method(),
@@ -296,8 +359,18 @@ void add_light(App& app) {
       ->type_name("FILE");
   c->lighting.declare("light", LightingSettings{});
   c->lighting.add_to(command, "Lighting");
-  command->add_flag("--cosine-cones", c->cosine_cones,
-                    "Cones from the cosine-weighted integral instead of the mean direction");
+  command
+      ->add_option("--cones", c->cones,
+                   "Bent normals and cones from the cosine-weighted integral, or from the mean "
+                   "direction, as published: cosine or mean [default cosine]")
+      ->type_name("NAME");
+  command
+      ->add_option("--comparator", c->comparator,
+                   "Instead of the technique: samples (each sample carries its light: directional "
+                   "occlusion with --method hemisphere, the truth with ray-traced) or importance "
+                   "(directions by the light's power, with the settings of --method hemisphere): "
+                   "none, samples or importance [default none]")
+      ->type_name("NAME");
   command->add_option("--albedo", c->albedo, "Reflectance of all surfaces [default 1,1,1]")
       ->type_name("R,G,B");
   command->add_option("--sun-direction", c->sun_direction, "Towards a sun, world space, y up")
@@ -322,7 +395,7 @@ void add_light(App& app) {
                     "Leave pixels without geometry black instead of showing the environment");
   command->add_flag("--no-cache", c->no_cache,
                     "Neither read nor write $XDG_CACHE_HOME/obscura (~/.cache/obscura)");
-  c->method.add_to(command, "geometric");
+  c->method.add_to(command, kDefaultMethod);
   c->input.add_to(command);
   add_threads_option(command, &c->threads);
   command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");

@@ -15,6 +15,7 @@
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
 #include "obscura/horizon.h"
+#include "obscura/importance.h"
 #include "obscura/lighting.h"
 #include "obscura/line.h"
 #include "obscura/mipmap.h"

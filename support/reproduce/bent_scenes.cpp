@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fmt/format.h"
+#include "support/lighting/comparators.h"
 #include "support/lighting/environment_file.h"
 
 namespace obscura::support {
@@ -132,24 +133,11 @@ std::array<float, 9> world_from_eye(const Rendering& rendering) {
 
 Status lit_truth(const Rendering& rendering, const Environment& light, int rays, int every,
                  Executor& executor, Image* rgb) {
-  const std::array<float, 9> m = world_from_eye(rendering);
-  const Sun& sun = light.sun();
-  const float edge = std::cos(sun.angular_radius), sine = std::sin(sun.angular_radius);
-  const float disc = 1 / (std::numbers::pi_v<float> * sine * sine);
   ReferenceSettings settings;
   settings.falloff = bent_falloff(rendering);
   settings.rays = rays;
   settings.every = every;
-  settings.radiance = [&](const std::array<float, 3>& w) {
-    std::array<float, 3> d;
-    for (int k = 0; k < 3; ++k) d[k] = m[3 * k] * w[0] + m[3 * k + 1] * w[1] + m[3 * k + 2] * w[2];
-    std::array<float, 3> c = light.radiance(d);
-    if (sun.shines() &&
-        d[0] * sun.direction[0] + d[1] * sun.direction[1] + d[2] * sun.direction[2] > edge) {
-      for (int k = 0; k < 3; ++k) c[k] += disc * sun.irradiance[k];
-    }
-    return c;
-  };
+  settings.radiance = light_of_rays(light, world_from_eye(rendering));
   *rgb = Image(rendering.view.width, rendering.view.height);
   for (const char* name : {"R", "G", "B"}) rgb->add(name);
   Outputs o;

@@ -6,12 +6,13 @@
 namespace obscura {
 namespace {
 
-constexpr const char* kHall = "light scene:hall --size 32x18 --rays 16 --no-cache ";
+constexpr const char* kHall =
+    "light scene:hall --size 32x18 --method geometric --rays 16 --no-cache ";
 
 class LightCommandTest : public CommandTest {};
 
 TEST_F(LightCommandTest, WritesRadiance) {
-  for (const char* more : {"", "--cosine-cones", "--technique bent-normal --geometric-term",
+  for (const char* more : {"", "--cones mean", "--technique bent-normal --geometric-term",
                            "--technique ambient-occlusion --albedo 0.5,0.5,0.5",
                            "--sun-direction 1,1,1 --heading-deg 90"}) {
     const CommandResult r =
@@ -48,8 +49,32 @@ TEST_F(LightCommandTest, UniformSkyGivesVisibility) {
   }
 }
 
+// Open surfaces under uniform light show it, however it is sampled.
+TEST_F(LightCommandTest, ComparatorsLightThePicture) {
+  for (const char* how : {"samples --method hemisphere --samples 16", "samples --method ray-traced",
+                          "importance --method hemisphere --samples 64"}) {
+    const CommandResult r =
+        run(std::string("light scene:plane --size 32x18 --radius 1 --no-cache --environment "
+                        "sky:model=uniform -o lit.pfm --comparator ") +
+            how);
+    ASSERT_EQ(r.code, 0) << r.err;
+    support::Image lit;
+    ASSERT_TRUE(support::read_image(path("lit.pfm"), &lit).ok());
+    double sum = 0;
+    for (float v : lit.channels[0].values) sum += v;
+    EXPECT_NEAR(sum / lit.channels[0].values.size(), 1, 0.02) << how;
+  }
+  const CommandResult r = run(std::string(kHall) + "--environment sky -o x.exr --comparator best");
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("--comparator is 'best'; it must be one of"), std::string::npos) << r.err;
+  const CommandResult other =
+      run(std::string(kHall) + "--environment sky -o x.exr --comparator samples");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("needs --method hemisphere or ray-traced"), std::string::npos);
+}
+
 TEST_F(LightCommandTest, KeepsTheConvolution) {
-  const std::string command = "light scene:hall --size 16x9 --rays 4 --environment sky -o lit.png";
+  const std::string command = "light scene:hall --size 16x9 --environment sky -o lit.png";
   EXPECT_EQ(run(command, "export XDG_CACHE_HOME=$PWD/cache;").code, 0);
   const CommandResult again = run(command, "export XDG_CACHE_HOME=$PWD/cache;");
   EXPECT_EQ(again.code, 0) << again.err;

@@ -31,7 +31,7 @@ struct Place {
   }
 };
 
-// Channels of octant s stand together: (s & 3) * directions + direction, in half s >> 2.
+// Channels of octant s stand together, in half s >> 2.
 class VisibilityFieldImpl {
  public:
   TransportScheme scheme;
@@ -57,6 +57,12 @@ class VisibilityFieldImpl {
     *other = {};
   }
   bool has_half(int half) const { return bytes[half] || floats[half]; }
+
+  // First channel of an octant in its half, and in all channels of both.
+  int first_channel(int octant) const { return kSlotOfQuadrant[octant & 3] * directions(); }
+  int first_of_all(int octant) const {
+    return (octant >> 2) * static_cast<int>(channels()) + first_channel(octant);
+  }
 
   // Adds share times the values of half a voxel's channels, in [0, 1], to sum.
   void add(int half, std::size_t voxel, float share, float* sum) const {
@@ -158,7 +164,7 @@ void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, in
   }
   const int channels = static_cast<int>(field->channels()), n = field->directions();
   executor.parallel_for(2 * channels, [&](int i, int) {
-    const int half = i / channels, channel = i % channels, quadrant = channel / n;
+    const int half = i / channels, channel = i % channels, quadrant = kQuadrantOfSlot[channel / n];
     if (!(halves >> half & 1) || progress.cancelled()) return;
     sweep_occlusion_f32(open.data(), field->size,
                         {(quadrant & 1) != 0, (quadrant & 2) != 0, half == 1},
@@ -382,7 +388,7 @@ Status VisibilityField::octant(int octant, GridView<float> visibility) const {
         f.add(octant >> 2, voxel, 1, values);
         float mean = 0;
         for (int i = 0; i < n; ++i) {
-          mean += f.scheme.directions[i].weight * values[(octant & 3) * n + i];
+          mean += f.scheme.directions[i].weight * values[f.first_channel(octant) + i];
         }
         visibility.data[x * stride[0] + y * stride[1] + z * stride[2]] = std::min(mean, 1.0f);
       }
@@ -405,7 +411,7 @@ Status VisibilityField::scalar(GridView<float> visibility, const VolumeRun& run)
   float weight[2][4 * kMaxDirections] = {};
   for (int s = f.shadow ? static_cast<int>(kShadowOctant) : 0; s < 8; ++s) {
     for (int i = 0; i < f.directions(); ++i) {
-      weight[s >> 2][(s & 3) * f.directions() + i] =
+      weight[s >> 2][f.first_channel(s) + i] =
           f.scheme.directions[i].weight * (f.shadow ? 1.0f : 0.125f);
     }
   }
@@ -446,7 +452,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
     float sum = 0, count = 0;
     for (int s = f.shadow ? 7 : 0; s < 8; ++s) {
       if (!f.shadow && !(light.octants >> s & 1)) continue;
-      const float* v = visibility + (s >> 2) * f.channels() + (s & 3) * n;
+      const float* v = visibility + f.first_of_all(s);
       const float within = place.within(s);
       for (int i = 0; i < n; ++i) {
         sum += f.scheme.directions[i].weight * (1 + within * (v[i] - 1));
@@ -463,7 +469,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
   if (f.scheme.plane) heights = f.heights(place, point);
   for (int s = 0; s < 8; ++s) {
     const bool on = (light.octants >> s & 1) != 0;
-    const float* v = visibility + (s >> 2) * f.channels() + (s & 3) * n;
+    const float* v = visibility + f.first_of_all(s);
     const float within = place.within(s);
     if (n == 1 && !f.scheme.plane) {
       // Equation 4; seen through the surface, the other side's geometry term adds.

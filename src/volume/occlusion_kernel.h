@@ -33,10 +33,15 @@ struct OcclusionSweep {
   bool rising = true;  // z rises along the light: it comes from the negative side
   const SweepDirection* directions = nullptr;
   int count = 0;  // of directions, 1 ... kMaxDirections
-  // Visibility at each voxel, 255 is open: channel quadrant * count + direction, where bit 0 or 1
-  // of the quadrant is set for light from the positive side of x or y.
+  // Visibility at each voxel, 255 is open: channel slot * count + direction.
   std::uint8_t* visibility = nullptr;
 };
+
+// Bit 0 or 1 of a quadrant is set for light from the positive side of x or y. Quadrants that the
+// sweep holds mirrored in x come last.
+inline constexpr int kQuadrantOfSlot[4] = {0, 3, 1, 2};
+inline constexpr int kSlotOfQuadrant[4] = {0, 2, 3, 1};
+
 void sweep_occlusion_u8(const OcclusionSweep& sweep);
 
 // The same in floats by plain loops, with one quadrant and direction per call; `visibility` is that

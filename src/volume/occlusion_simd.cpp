@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "volume/occlusion_simd.cpp"
 #include "hwy/foreach_target.h"
 // After foreach_target.
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "volume/transpose-inl.h"
 
@@ -63,52 +64,74 @@ HWY_INLINE V Between(V a, V b, V share) {
   return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), share));
 }
 
-// What one order keeps from step to step. `c` are values of this plane, `b` of the one before; the
-// digits say how far back along x and y.
-struct Walk {
-  V c10, c01, b00, b01;
+// An order within one strip, vector by vector. The row beside the strip belongs to the one swept
+// before, whose vector at the same x lies kRows - 1 vectors further on.
+template <bool kForward, int kAxis>
+class StripWalk {
+ public:
+  StripWalk(const Layout& layout, const Order& o, int strip)
+      : now_(o.now), before_(o.before), opacity_(o.opacity), out_(o.out) {
+    const D d;
+    const V one = hn::Set(d, kOne);
+    w_ = {one, one, one, one};
+    at_ = (kForward ? strip : layout.strips - 1 - strip) * layout.strip_size();
+    other_ = kForward ? at_ - layout.strip_size() : at_ + layout.strip_size();
+    if (!kForward) {
+      at_ += layout.strip_size() - kRows;
+      other_ += layout.strip_size() - kRows;
+    }
+    other_ += kStep * (kRows - 1);
+  }
+
+  // kEdge: there is a vector beside the strip; else it is open.
+  template <bool kEdge>
+  HWY_INLINE void step(V first, V second) {
+    const D d;
+    const V one = hn::Set(d, kOne);
+    const V b00 = hn::Load(d, before_ + at_);
+    V c01 = one, b01 = one, visibility;
+    if constexpr (kAxis != 2) {
+      c01 = Beside<kForward>(w_.c10, kEdge ? hn::Load(d, now_ + other_) : one);
+    }
+    if constexpr (kAxis >= 0) {
+      b01 = Beside<kForward>(w_.b00, kEdge ? hn::Load(d, before_ + other_) : one);
+    }
+    if constexpr (kAxis < 0) {
+      visibility = hn::Add(b00, hn::Add(hn::MulFixedPoint15(hn::Sub(w_.c10, b00), first),
+                                        hn::MulFixedPoint15(hn::Sub(c01, b00), second)));
+    } else if constexpr (kAxis == 0) {
+      visibility = Between(Between(w_.c10, w_.c01, first), Between(w_.b00, w_.b01, first), second);
+    } else if constexpr (kAxis == 1) {
+      visibility = Between(Between(c01, w_.c01, first), Between(b01, w_.b01, first), second);
+    } else {
+      visibility = Between(Between(b00, w_.b00, first), Between(b01, w_.b01, first), second);
+    }
+    const V opacity = hn::Load(d, opacity_ + at_);
+    const V onward = hn::Sub(visibility, hn::MulFixedPoint15(visibility, opacity));
+    hn::Store(onward, d, now_ + at_);
+    const hn::Rebind<std::uint8_t, D> d8;
+    hn::Store(hn::DemoteTo(d8, hn::ShiftRight<7>(visibility)), d8, out_ + at_);
+    w_ = {onward, c01, b00, b01};
+    at_ += kStep;
+    other_ += kStep;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kStep = kForward ? kRows : -kRows;
+  // What it keeps from step to step. `c` are values of this plane, `b` of the one before; the
+  // digits say how far back along x and y.
+  struct {
+    V c10, c01, b00, b01;
+  } w_;
+  std::int16_t* const now_;
+  const std::int16_t* const before_;
+  const std::int16_t* const opacity_;
+  std::uint8_t* const out_;
+  std::ptrdiff_t at_, other_;
 };
 
-// kAxis -1: upwind; else the characteristic through the face across that axis.
-template <bool kForward, int kAxis>
-HWY_INLINE void Step(const Layout& layout, const Order& o, int strip, int t, V first, V second,
-                     Walk& w) {
-  const D d;
-  const V one = hn::Set(d, kOne);
-  const std::ptrdiff_t at = strip * layout.strip_size() + t * static_cast<std::ptrdiff_t>(kRows);
-  // The row beside this strip, at the same x, belongs to the strip swept before.
-  const int across = kForward ? t + kRows - 1 : t - kRows + 1;
-  const bool inside =
-      kForward ? strip > 0 && across < layout.steps : strip + 1 < layout.strips && across >= 0;
-  const std::ptrdiff_t other = (kForward ? strip - 1 : strip + 1) * layout.strip_size() +
-                               across * static_cast<std::ptrdiff_t>(kRows);
-  const V b00 = hn::Load(d, o.before + at);
-  V c01 = one, b01 = one, visibility;
-  if constexpr (kAxis != 2) {
-    c01 = Beside<kForward>(w.c10, inside ? hn::Load(d, o.now + other) : one);
-  }
-  if constexpr (kAxis >= 0) {
-    b01 = Beside<kForward>(w.b00, inside ? hn::Load(d, o.before + other) : one);
-  }
-  if constexpr (kAxis < 0) {
-    visibility = hn::Add(b00, hn::Add(hn::MulFixedPoint15(hn::Sub(w.c10, b00), first),
-                                      hn::MulFixedPoint15(hn::Sub(c01, b00), second)));
-  } else if constexpr (kAxis == 0) {
-    visibility = Between(Between(w.c10, w.c01, first), Between(w.b00, w.b01, first), second);
-  } else if constexpr (kAxis == 1) {
-    visibility = Between(Between(c01, w.c01, first), Between(b01, w.b01, first), second);
-  } else {
-    visibility = Between(Between(b00, w.b00, first), Between(b01, w.b01, first), second);
-  }
-  const V opacity = hn::Load(d, o.opacity + at);
-  const V onward = hn::Sub(visibility, hn::MulFixedPoint15(visibility, opacity));
-  hn::Store(onward, d, o.now + at);
-  const hn::Rebind<std::uint8_t, D> d8;
-  hn::Store(hn::DemoteTo(d8, hn::ShiftRight<7>(visibility)), d8, o.out + at);
-  w = {onward, c01, b00, b01};
-}
-
 // Four orders in step: each waits for its own last vector, and the others fill the time.
+// kAxis -1: upwind; else the characteristic through the face across that axis.
 template <int kAxis>
 void SweepDirectionOf(const Layout& layout, const Order orders[4], float first_share,
                       float second_share) {
@@ -117,16 +140,26 @@ void SweepDirectionOf(const Layout& layout, const Order orders[4], float first_s
     return hn::Set(d, static_cast<std::int16_t>(std::min(32767.0f, s * 32768.0f)));
   };
   const V first = share(first_share), second = share(second_share);
-  const V one = hn::Set(d, kOne);
+  const int steps = layout.steps;
   for (int s = 0; s < layout.strips; ++s) {
-    Walk w0{one, one, one, one}, w1 = w0, w2 = w0, w3 = w0;
-    const int last = layout.strips - 1 - s;
-    for (int t = 0; t < layout.steps; ++t) {
-      const int back = layout.steps - 1 - t;
-      Step<true, kAxis>(layout, orders[0], s, t, first, second, w0);
-      Step<false, kAxis>(layout, orders[1], last, back, first, second, w1);
-      Step<true, kAxis>(layout, orders[2], s, t, first, second, w2);
-      Step<false, kAxis>(layout, orders[3], last, back, first, second, w3);
+    StripWalk<true, kAxis> w0(layout, orders[0], s);
+    StripWalk<false, kAxis> w1(layout, orders[1], s);
+    StripWalk<true, kAxis> w2(layout, orders[2], s);
+    StripWalk<false, kAxis> w3(layout, orders[3], s);
+    int t = 0;
+    if (s > 0) {
+      for (; t < steps - kRows + 1; ++t) {
+        w0.template step<true>(first, second);
+        w1.template step<true>(first, second);
+        w2.template step<true>(first, second);
+        w3.template step<true>(first, second);
+      }
+    }
+    for (; t < steps; ++t) {
+      w0.template step<false>(first, second);
+      w1.template step<false>(first, second);
+      w2.template step<false>(first, second);
+      w3.template step<false>(first, second);
     }
   }
 }
@@ -166,10 +199,85 @@ void SkewPlane(const Layout& layout, const std::uint8_t* tau, int width, int hei
   }
 }
 
-// kChannels rows of bytes, one per channel, become voxels of interleaved channels.
-template <int kChannels>
-void InterleaveRow(const std::uint8_t* const* channels, const bool* mirrored, int count, int width,
-                   std::uint8_t* out, std::ptrdiff_t voxel) {
+// One strip's visibilities as they are swept and the voxels that they become.
+struct Strip {
+  const std::uint8_t* const* channels;  // skewed
+  int steps, rows, width;
+  std::uint8_t* voxels;  // the channels' first in the first voxel of the strip
+  std::ptrdiff_t voxel;  // bytes from voxel to voxel
+  // The strip after this one, for the cache: sixteen rows at a time are more than it foresees.
+  const std::uint8_t* next;
+};
+constexpr int kCacheLine = 64;
+
+// Writes the kUsed bytes of a turned voxel. A loose one may be followed by bytes that are yet to be
+// written.
+template <int kUsed, bool kLoose>
+HWY_INLINE void CopyVoxel(const std::uint8_t* from, std::ptrdiff_t next, std::uint8_t* to) {
+  constexpr int kFirst = kUsed <= 8 ? (kLoose ? 8 : 4) : std::min(16, kLoose ? 16 : kUsed);
+  std::memcpy(to, from, kFirst);
+  if constexpr (kUsed > 16) {
+    std::memcpy(to + 16, from + next, kUsed - 16);
+  } else if constexpr (kUsed > kFirst) {
+    std::memcpy(to + kFirst, from + kFirst, kUsed - kFirst);
+  }
+}
+
+// Turns channels of voxels into voxels of kUsed channels.
+template <int kUsed, bool kMirrored>
+void StoreStrip(const Strip& strip) {
+  constexpr int kRoom = kUsed <= 8 ? 8 : kUsed <= 16 ? 16 : 32;  // bytes of a turned voxel
+  constexpr int kPerBlock = kRoom < 16 ? 16 / kRoom : 1, kBlocks = kRoom < 16 ? 1 : kRoom / 16;
+  const hn::ScalableTag<std::uint8_t> d;
+  using VB = hn::Vec<decltype(d)>;
+  const int lanes = static_cast<int>(hn::Lanes(d)), together = lanes / kRows;
+  HWY_ALIGN std::uint8_t turned[HWY_MAX_BYTES * kRoom];
+  // Copies, as bytes are written that might be anything.
+  const int steps = strip.steps, rows = strip.rows, width = strip.width;
+  const std::ptrdiff_t voxel = strip.voxel, across = (kMirrored ? width + 1 : width - 1) * voxel;
+  std::uint8_t* const voxels = strip.voxels;
+  const std::uint8_t* channels[kUsed];
+  std::copy_n(strip.channels, kUsed, channels);
+  const std::ptrdiff_t ahead = kMirrored ? 0 : rows * width * voxel * together / steps + kCacheLine;
+  const std::uint8_t* next = strip.next;
+  for (int t = 0; t < steps; t += together) {
+    for (std::ptrdiff_t i = 0; i < ahead; i += kCacheLine) hwy::Prefetch(next + i);
+    next += ahead;
+    VB v[kRoom];
+    for (int c = 0; c < kRoom; ++c) {
+      v[c] = c < kUsed ? hn::LoadU(d, channels[c] + t * kRows) : hn::Zero(d);
+    }
+    PerfectShuffle<kRoom, Log2(kRoom)>(d, v);
+    for (int c = 0; c < kRoom; ++c) hn::Store(v[c], d, turned + c * lanes);
+    // Shuffles stay within blocks of 16 bytes: such a block's voxels now stand in that block of one
+    // vector after the other.
+    for (int i = 0; i < together; ++i) {
+      const int x = t + i;  // of lane 0; each lane is one behind the one before it
+      const std::uint8_t* from = turned + i * kRows / 16 * 16 + i * kRows % 16 * kRoom / 16 * lanes;
+      const std::ptrdiff_t column = kMirrored ? width - 1 - x : x;
+      if (rows == kRows && x >= kRows - 1 && x < width - 1) {
+        std::uint8_t* to = voxels + column * voxel;
+        for (int j = 0; j < kRows; j += kPerBlock) {
+          for (int b = 0; b < kPerBlock; ++b, to += across) {
+            CopyVoxel<kUsed, !kMirrored>(from + b * kRoom, lanes, to);
+          }
+          from += kBlocks * lanes;
+        }
+        continue;
+      }
+      const int first = std::max(0, x - width + 1), last = std::min(rows - 1, x);
+      for (int j = first; j <= last; ++j) {
+        CopyVoxel<kUsed, false>(from + j / kPerBlock * kBlocks * lanes + j % kPerBlock * kRoom,
+                                lanes, voxels + column * voxel + j * across);
+      }
+    }
+  }
+}
+
+// Four rows of bytes, one per channel, become voxels of four bytes.
+void InterleaveRow(const std::uint8_t* const channels[4], const bool mirrored[4], int width,
+                   std::uint8_t* out) {
+  constexpr int kChannels = 4;
   const hn::Full128<std::uint8_t> d;
   HWY_ALIGN static constexpr std::uint8_t kBackward[16] = {15, 14, 13, 12, 11, 10, 9, 8,
                                                            7,  6,  5,  4,  3,  2,  1, 0};
@@ -178,40 +286,45 @@ void InterleaveRow(const std::uint8_t* const* channels, const bool* mirrored, in
   for (int x = 0; x < width; x += kBlock) {
     hn::Vec<hn::Full128<std::uint8_t>> v[kChannels];
     for (int c = 0; c < kChannels; ++c) {
-      if (c >= count) {
-        v[c] = hn::Zero(d);
-      } else if (mirrored[c]) {
-        v[c] = hn::TableLookupBytes(hn::LoadU(d, channels[c] + width - kBlock - x), backward);
-      } else {
-        v[c] = hn::LoadU(d, channels[c] + x);
-      }
+      v[c] = mirrored[c]
+                 ? hn::TableLookupBytes(hn::LoadU(d, channels[c] + width - kBlock - x), backward)
+                 : hn::LoadU(d, channels[c] + x);
     }
     PerfectShuffle<kChannels, Log2(kChannels)>(d, v);
-    std::uint8_t* to = out + x * voxel;
-    if constexpr (kChannels == kBlock) {
-      if (count == kBlock / 2) {
-        const hn::Half<decltype(d)> half;
-        for (int i = 0; i < std::min(kBlock, width - x); ++i) {
-          hn::StoreU(hn::LowerHalf(half, v[i]), half, to + i * voxel);
-        }
-        continue;
-      }
-      // A whole vector may run into the next voxel, which is written after it; not the last.
-      const int whole = std::min(kBlock, width - 1 - x);
-      for (int i = 0; i < whole; ++i) hn::StoreU(v[i], d, to + i * voxel);
-      if (whole < kBlock) {
-        hn::Store(v[whole], d, block);
-        std::memcpy(to + whole * voxel, block, static_cast<std::size_t>(count));
-      }
-    } else if (voxel == kChannels && x + kBlock <= width) {
+    std::uint8_t* to = out + x * kChannels;
+    if (x + kBlock <= width) {
       for (int c = 0; c < kChannels; ++c) hn::StoreU(v[c], d, to + c * kBlock);
     } else {
       for (int c = 0; c < kChannels; ++c) hn::Store(v[c], d, block + c * kBlock);
-      for (int i = 0; i < kBlock && x + i < width; ++i) {
-        std::memcpy(to + i * voxel, block + i * kChannels, static_cast<std::size_t>(count));
-      }
+      std::memcpy(to, block, static_cast<std::size_t>(kChannels * (width - x)));
     }
   }
+}
+
+// The same for one direction: its voxels of four bytes are better written row by row.
+void StoreRows(const Layout& layout, const std::uint8_t* const channels[4], int rows, int width,
+               std::uint8_t* scratch, std::ptrdiff_t pitch, std::uint8_t* voxels) {
+  for (int c = 0; c < 4; ++c) {
+    std::uint8_t* to = scratch + c * kRows * pitch + kBlock;
+    for (int t = 0; t < layout.steps; t += kBlock) {
+      UnskewBytes<kRows>(channels[c] + t * kRows, to + t, pitch - 1);
+    }
+  }
+  constexpr bool kMirrored[4] = {false, false, true, true};
+  for (int j = 0; j < rows; ++j) {
+    const std::uint8_t* of_row[4];
+    for (int c = 0; c < 4; ++c) of_row[c] = scratch + (c * kRows + j) * pitch + kBlock;
+    InterleaveRow(of_row, kMirrored, width, voxels + std::ptrdiff_t{4} * j * width);
+  }
+}
+
+template <int kCount>
+void StoreHalves(const Strip& strip) {
+  StoreStrip<2 * kCount, false>(strip);
+  Strip mirrored = strip;
+  mirrored.channels += 2 * kCount;
+  mirrored.voxels += 2 * kCount;
+  StoreStrip<2 * kCount, true>(mirrored);
 }
 
 void SweepOcclusion(const OcclusionSweep& sweep) {
@@ -229,9 +342,8 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
   std::vector<std::int16_t> state(
       (apart ? 2 : 1) * static_cast<std::size_t>(channels * plane) + spare, kOne);
   std::vector<std::uint8_t> out_storage(static_cast<std::size_t>(channels * plane) + spare);
-  std::vector<std::uint8_t> rows_storage(static_cast<std::size_t>(channels) * kRows * pitch +
-                                         spare);
-  std::uint8_t* rows = Aligned(tau_rows);
+  std::vector<std::uint8_t> rows_storage(static_cast<std::size_t>(4 * kRows * pitch) + spare);
+  std::uint8_t* plain_rows = Aligned(tau_rows);
   std::int16_t* opacity = Aligned(opacity_storage);
   std::int16_t* now = Aligned(state);
   std::int16_t* before = apart ? now + channels * plane : now;
@@ -242,7 +354,7 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
     const int z = sweep.rising ? k : depth - 1 - k;
     const std::ptrdiff_t voxels = static_cast<std::ptrdiff_t>(width) * height;
     for (int m = 0; m < 2; ++m) {
-      SkewPlane(layout, sweep.tau + z * voxels, width, height, m == 1, rows, pitch,
+      SkewPlane(layout, sweep.tau + z * voxels, width, height, m == 1, plain_rows, pitch,
                 opacity + m * plane);
     }
     for (int i = 0; i < sweep.count; ++i) {
@@ -264,40 +376,64 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
     }
     if (apart) std::swap(now, before);
 
-    // Orders 0 ... 3 sweep x and y up, both down, x down and y up, x up and y down; light comes
-    // from the side that they leave.
-    static constexpr int kOrderOf[4] = {0, 2, 3, 1};
+    // Orders 0 ... 3 sweep x and y up, both down, x down and y up, x up and y down.
     for (int s = 0; s < layout.strips; ++s) {
-      for (int c = 0; c < channels; ++c) {
-        const std::uint8_t* from = out + c * plane + s * layout.strip_size();
-        std::uint8_t* to = out_rows + c * kRows * pitch + kBlock;
-        for (int t = 0; t < layout.steps; t += kBlock) {
-          UnskewBytes<kRows>(from + t * kRows, to + t, pitch - 1);
-        }
-      }
-      for (int j = 0; j < kRows && s * kRows + j < height; ++j) {
-        const std::uint8_t* channel_rows[4 * kMaxDirections];
-        bool mirrored[4 * kMaxDirections];
-        for (int c = 0; c < channels; ++c) {
-          const int order = kOrderOf[c / sweep.count];
-          channel_rows[c] =
-              out_rows + ((order * sweep.count + c % sweep.count) * kRows + j) * pitch + kBlock;
-          mirrored[c] = order >= 2;
-        }
-        std::uint8_t* to =
-            sweep.visibility +
-            (z * voxels + (s * kRows + j) * static_cast<std::ptrdiff_t>(width)) * channels;
-        if (channels == 4) {
-          InterleaveRow<4>(channel_rows, mirrored, 4, width, to, channels);
-          continue;
-        }
-        for (int c = 0; c < channels; c += kBlock) {
-          InterleaveRow<kBlock>(channel_rows + c, mirrored + c, std::min(kBlock, channels - c),
-                                width, to + c, channels);
-        }
+      const std::uint8_t* skewed[4 * kMaxDirections];
+      for (int c = 0; c < channels; ++c) skewed[c] = out + c * plane + s * layout.strip_size();
+      const int rows = std::min(kRows, height - s * kRows);
+      std::uint8_t* to = sweep.visibility +
+                         (z * voxels + static_cast<std::ptrdiff_t>(s) * kRows * width) * channels;
+      const std::uint8_t* next = to + static_cast<std::ptrdiff_t>(rows) * width * channels;
+      const Strip strip{skewed, layout.steps, rows, width, to, channels, next};
+      switch (sweep.count) {
+        case 1:
+          StoreRows(layout, skewed, rows, width, out_rows, pitch, to);
+          break;
+        case 3:
+          StoreHalves<3>(strip);
+          break;
+        case 6:
+          StoreHalves<6>(strip);
+          break;
+        case 10:
+          StoreHalves<10>(strip);
+          break;
+        default:
+          HWY_ABORT("no transport has %d directions", sweep.count);
       }
     }
   }
+}
+
+// As many of a row's cells as fill vectors; returns how many that is.
+template <int kCell>
+int TransmittanceVectors(const float* const* rows, int width, float scale, float alpha,
+                         std::uint8_t* HWY_RESTRICT tau) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const hn::Rebind<std::uint8_t, decltype(d)> d8;
+  using VF = hn::Vec<decltype(d)>;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const VF zero = hn::Zero(d), half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f);
+  const VF by = hn::Set(d, scale), opacity = hn::Set(d, alpha), full = hn::Set(d, 255.0f);
+  auto down = [&](int x) HWY_ATTR {
+    if constexpr (kCell == 1) return hn::LoadU(d, rows[0] + x);
+    return hn::Add(hn::Add(hn::LoadU(d, rows[0] + x), hn::LoadU(d, rows[1] + x)),
+                   hn::Add(hn::LoadU(d, rows[2] + x), hn::LoadU(d, rows[3] + x)));
+  };
+  int x = 0;
+  for (; (x + lanes) * kCell <= width; x += lanes) {
+    VF sum = down(x * kCell);
+    if constexpr (kCell == 2) {
+      const VF next = down(x * kCell + lanes);
+      sum = hn::Add(hn::ConcatEven(d, next, sum), hn::ConcatOdd(d, next, sum));
+    }
+    const VF t = hn::Min(hn::Max(hn::Add(hn::Mul(sum, by), half), zero), one);
+    const VF open = hn::Sub(one, hn::Mul(hn::Sub(one, t), opacity));
+    const auto byte = hn::ConvertTo(di, hn::Add(hn::Mul(open, full), half));
+    hn::StoreU(hn::DemoteTo(d8, byte), d8, tau + x);
+  }
+  return x;
 }
 
 void TransmittanceRow(const float* const* rows, int row_count, std::ptrdiff_t stride, int width,
@@ -306,27 +442,13 @@ void TransmittanceRow(const float* const* rows, int row_count, std::ptrdiff_t st
     const float t = std::min(std::max(sum * scale + 0.5f, 0.0f), 1.0f);
     return static_cast<std::uint8_t>(255.0f * (1 - (1 - t) * alpha) + 0.5f);
   };
+  int x = 0;
   if (stride == 1 && cell == 1 && row_count == 1) {
-    const float* HWY_RESTRICT row = rows[0];
-    for (int x = 0; x < width; ++x) tau[x] = byte(row[x]);
-    return;
+    x = TransmittanceVectors<1>(rows, width, scale, alpha, tau);
+  } else if (stride == 1 && cell == 2 && row_count == 4) {
+    x = TransmittanceVectors<2>(rows, width, scale, alpha, tau);
   }
-  if (stride == 1 && cell == 2 && row_count == 4) {
-    const float *HWY_RESTRICT a = rows[0], *HWY_RESTRICT b = rows[1];
-    const float *HWY_RESTRICT c = rows[2], *HWY_RESTRICT e = rows[3];
-    const int pairs = width / 2;
-    for (int x = 0; x < pairs; ++x) {
-      const float left = (a[2 * x] + b[2 * x]) + (c[2 * x] + e[2 * x]);
-      const float right = (a[2 * x + 1] + b[2 * x + 1]) + (c[2 * x + 1] + e[2 * x + 1]);
-      tau[x] = byte(left + right);
-    }
-    if (width % 2) {
-      const int x = width - 1;
-      tau[pairs] = byte(2 * ((a[x] + b[x]) + (c[x] + e[x])));
-    }
-    return;
-  }
-  for (int x = 0; x < (width + cell - 1) / cell; ++x) {
+  for (; x < (width + cell - 1) / cell; ++x) {
     float sum = 0;
     for (int i = 0; i < cell; ++i) {
       const std::ptrdiff_t at = std::min(x * cell + i, width - 1) * stride;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <numbers>
 
@@ -34,8 +35,9 @@ struct Place {
 // Channels of octant s stand together, in half s >> 2.
 class VisibilityFieldImpl {
  public:
+  Transport transport{};
   TransportScheme scheme;
-  PlaneTable plane;
+  std::shared_ptr<const PlaneTable> plane;
   std::array<int, 3> size{};
   Vec3 spacing{}, origin{};
   Vec3 end{};  // as far before the volume's border as `origin` is behind it
@@ -50,6 +52,15 @@ class VisibilityFieldImpl {
     return static_cast<std::size_t>(size[0]) * size[1] * static_cast<std::size_t>(size[2]);
   }
   std::size_t channels() const { return 4 * scheme.directions.size(); }
+  // Another field's table, where it is the same.
+  bool take_plane(const VisibilityFieldImpl& other) {
+    if (!other.plane || other.transport != transport || other.spacing != spacing ||
+        other.alpha != alpha) {
+      return false;
+    }
+    plane = other.plane;
+    return true;
+  }
   // Another field's memory, where it fits: a volume swept again allocates nothing large.
   void take_bytes(VisibilityFieldImpl* other) {
     if (other->voxels() * other->channels() != voxels() * channels()) return;
@@ -112,7 +123,7 @@ class VisibilityFieldImpl {
 
   // Heights of the voxels there above the plane through a point of the surface.
   PlaneTable::Heights heights(const Place& at, const SurfacePoint& point) const {
-    PlaneTable::Heights result(plane);
+    PlaneTable::Heights result(*plane);
     for (int corner = 0; corner < 8; ++corner) {
       const float s = at.corner_share(corner);
       if (s == 0) continue;
@@ -192,6 +203,7 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
   Executor& executor = run.executor ? *run.executor : *own;
   VisibilityField result;
   VisibilityFieldImpl& f = result.impl();
+  f.transport = settings.transport;
   f.scheme = transport_scheme(settings.transport, distance.spacing);
   f.alpha = settings.alpha;
   const int cell = f.scheme.cell;
@@ -203,10 +215,12 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
     f.end[a] = static_cast<float>(distance.size[a] - 1) * distance.spacing[a] - f.origin[a];
   }
   const float unit = unit_of(f.spacing);
-  if (f.scheme.plane) f.plane = PlaneTable(f.scheme, f.spacing, unit, settings.alpha, executor);
+  if (f.scheme.plane && !f.take_plane(field->impl())) {
+    f.plane = std::make_shared<PlaneTable>(f.scheme, f.spacing, unit, settings.alpha, executor);
+  }
 
   // Transmittance of a cell from the mean of its voxels' distances.
-  std::vector<std::uint8_t> tau(f.voxels());
+  const std::unique_ptr<std::uint8_t[]> tau(new std::uint8_t[f.voxels()]);
   const auto stride = distance.strides();
   const float scale = 1 / (unit * static_cast<float>(cell * cell * cell));
   executor.parallel_for(f.size[2], [&](int z, int) {
@@ -220,8 +234,8 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
         }
       }
       transmittance_row(rows, count, stride[0], distance.size[0], cell, scale, settings.alpha,
-                        tau.data() + static_cast<std::size_t>(f.size[0]) *
-                                         (y + static_cast<std::size_t>(f.size[1]) * z));
+                        tau.get() + static_cast<std::size_t>(f.size[0]) *
+                                        (y + static_cast<std::size_t>(f.size[1]) * z));
     }
   });
   Progress progress(settings.precision == VisibilityPrecision::kU8
@@ -229,7 +243,7 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
                         : static_cast<std::int64_t>(2 * f.channels()),
                     run.progress);
   if (settings.precision == VisibilityPrecision::kU8) f.take_bytes(&field->impl());
-  sweep_halves(tau.data(), settings, 3, executor, progress, &f);
+  sweep_halves(tau.get(), settings, 3, executor, progress, &f);
   if (progress.cancelled()) return cancelled();
   *field = std::move(result);
   return {};
@@ -465,7 +479,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
   float sum = 0, all = 0;
   float plane[PlaneTable::kRoom];
   std::fill_n(plane, PlaneTable::kRoom, 1.0f);
-  PlaneTable::Heights heights(f.plane);
+  PlaneTable::Heights heights;
   if (f.scheme.plane) heights = f.heights(place, point);
   for (int s = 0; s < 8; ++s) {
     const bool on = (light.octants >> s & 1) != 0;
@@ -482,7 +496,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
     Vec3 reflected = normal;
     for (int a = 0; a < 3; ++a) reflected[a] = s >> a & 1 ? normal[a] : -normal[a];
     if (!through && reflected[0] <= 0 && reflected[1] <= 0 && reflected[2] <= 0) continue;
-    if (on && f.scheme.plane) f.plane.look_up(reflected, heights, plane);
+    if (on && f.scheme.plane) f.plane->look_up(reflected, heights, plane);
     for (int i = 0; i < n; ++i) {
       const SweepDirection& d = f.scheme.directions[i];
       const float cosine = d.direction[0] * reflected[0] + d.direction[1] * reflected[1] +

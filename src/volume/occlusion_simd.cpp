@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "volume/occlusion_kernel.h"
@@ -19,9 +20,12 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 // Visibility is a 15-bit fraction; kOne is 1.
-using D = hn::CappedTag<std::int16_t, 16>;
+using D = hn::CappedTag<std::int16_t, 32>;
 using V = hn::Vec<D>;
-constexpr int kRows = HWY_LANES(std::int16_t) < 16 ? HWY_LANES(std::int16_t) : 16;
+constexpr int kLanes = std::min(32, static_cast<int>(HWY_LANES(std::int16_t)));
+// Rows of a strip. Wider vectors hold an order and its mirror image side by side.
+constexpr int kRows = std::min(16, kLanes), kSides = kLanes / kRows;
+using RowsTag = hn::CappedTag<std::int16_t, 16>;
 constexpr std::int16_t kOne = 32767;
 constexpr int kBlock = 16;  // bytes transposed at a time
 
@@ -31,33 +35,36 @@ T* Aligned(std::vector<T>& storage) {
   return storage.data() + (64 - address % 64) % 64 / sizeof(T);
 }
 
-// One direction of one of the four orders within a plane, as its strips are swept. Order 0 and 1
-// read the plane as it is, 2 and 3 mirrored in x; odd ones go backward, from the last row's end.
+// Order 0 and 1 of the four within a plane read it as it is, 2 and 3 mirrored in x; odd ones go
+// backward, from the last row's end. A lane group is an order, or with two sides 0 and 2 or 1
+// and 3.
+constexpr int kGroups = 4 / kSides;
+
+// One direction of a lane group, as its strips are swept.
 struct Order {
   std::int16_t* now;            // W = V tau of this plane, skewed
   const std::int16_t* before;   // of the plane before along z; may be `now` for the upwind stencil
   const std::int16_t* opacity;  // 1 - tau, skewed
-  std::uint8_t* out;            // V, skewed
+  std::uint8_t* out[2];         // V, skewed, of either side
 };
 struct Layout {
   int strips, steps;
   std::ptrdiff_t strip_size() const { return static_cast<std::ptrdiff_t>(steps) * kRows; }
 };
 
-// v0 v1 ... -> edge's last, v0, v1, ... forward; v1, v2, ..., edge's first backward.
+// On either side, v0 v1 ... -> edge's last, v0, v1, ... forward; v1, v2, ..., edge's first
+// backward.
 template <bool kForward>
 HWY_INLINE V Beside(V v, V edge) {
   const D d;
   constexpr int kBytes = static_cast<int>(sizeof(std::int16_t));
-  if constexpr (kForward) {
-    V low = edge;
-    if constexpr (kRows == 16) low = hn::ConcatLowerUpper(d, v, edge);
-    return hn::CombineShiftRightBytes<16 - kBytes>(d, v, low);
-  } else {
-    V high = edge;
-    if constexpr (kRows == 16) high = hn::ConcatLowerUpper(d, edge, v);
-    return hn::CombineShiftRightBytes<kBytes>(d, high, v);
+  V other = edge;  // blocks of 16 bytes that lanes move in from
+  if constexpr (kRows == 16) {
+    other =
+        hn::SwapAdjacentBlocks(kForward ? hn::OddEvenBlocks(edge, v) : hn::OddEvenBlocks(v, edge));
   }
+  return kForward ? hn::CombineShiftRightBytes<16 - kBytes>(d, v, other)
+                  : hn::CombineShiftRightBytes<kBytes>(d, other, v);
 }
 
 HWY_INLINE V Between(V a, V b, V share) {
@@ -66,110 +73,134 @@ HWY_INLINE V Between(V a, V b, V share) {
 
 // An order within one strip, vector by vector. The row beside the strip belongs to the one swept
 // before, whose vector at the same x lies kRows - 1 vectors further on.
+// kAxis -1: upwind; else the characteristic through the face across that axis.
 template <bool kForward, int kAxis>
 class StripWalk {
  public:
-  StripWalk(const Layout& layout, const Order& o, int strip)
-      : now_(o.now), before_(o.before), opacity_(o.opacity), out_(o.out) {
+  void start(const Layout& layout, const Order& o, const SweepDirection& direction, int strip) {
     const D d;
+    auto share = [&](float s) HWY_ATTR {
+      return hn::Set(d, static_cast<std::int16_t>(std::min(32767.0f, s * 32768.0f)));
+    };
+    first_ = share(direction.first);
+    second_ = share(direction.second);
     const V one = hn::Set(d, kOne);
-    w_ = {one, one, one, one};
-    at_ = (kForward ? strip : layout.strips - 1 - strip) * layout.strip_size();
-    other_ = kForward ? at_ - layout.strip_size() : at_ + layout.strip_size();
+    c10_ = c01_ = b00_ = b01_ = one;
+    now_ = o.now;
+    before_ = o.before;
+    opacity_ = o.opacity;
+    for (int side = 0; side < kSides; ++side) out_[side] = o.out[side];
+    const std::ptrdiff_t size = layout.strip_size() * kSides;
+    at_ = (kForward ? strip : layout.strips - 1 - strip) * size;
+    other_ = kForward ? at_ - size : at_ + size;
     if (!kForward) {
-      at_ += layout.strip_size() - kRows;
-      other_ += layout.strip_size() - kRows;
+      at_ += size - kLanes;
+      other_ += size - kLanes;
     }
     other_ += kStep * (kRows - 1);
   }
 
   // kEdge: there is a vector beside the strip; else it is open.
   template <bool kEdge>
-  HWY_INLINE void step(V first, V second) {
+  HWY_INLINE void step() {
     const D d;
-    const V one = hn::Set(d, kOne);
+    const V one = hn::Set(d, kOne), first = first_, second = second_;
     const V b00 = hn::Load(d, before_ + at_);
     V c01 = one, b01 = one, visibility;
     if constexpr (kAxis != 2) {
-      c01 = Beside<kForward>(w_.c10, kEdge ? hn::Load(d, now_ + other_) : one);
+      c01 = Beside<kForward>(c10_, kEdge ? hn::Load(d, now_ + other_) : one);
     }
     if constexpr (kAxis >= 0) {
-      b01 = Beside<kForward>(w_.b00, kEdge ? hn::Load(d, before_ + other_) : one);
+      b01 = Beside<kForward>(b00_, kEdge ? hn::Load(d, before_ + other_) : one);
     }
     if constexpr (kAxis < 0) {
-      visibility = hn::Add(b00, hn::Add(hn::MulFixedPoint15(hn::Sub(w_.c10, b00), first),
+      visibility = hn::Add(b00, hn::Add(hn::MulFixedPoint15(hn::Sub(c10_, b00), first),
                                         hn::MulFixedPoint15(hn::Sub(c01, b00), second)));
     } else if constexpr (kAxis == 0) {
-      visibility = Between(Between(w_.c10, w_.c01, first), Between(w_.b00, w_.b01, first), second);
+      visibility = Between(Between(c10_, c01_, first), Between(b00_, b01_, first), second);
     } else if constexpr (kAxis == 1) {
-      visibility = Between(Between(c01, w_.c01, first), Between(b01, w_.b01, first), second);
+      visibility = Between(Between(c01, c01_, first), Between(b01, b01_, first), second);
     } else {
-      visibility = Between(Between(b00, w_.b00, first), Between(b01, w_.b01, first), second);
+      visibility = Between(Between(b00, b00_, first), Between(b01, b01_, first), second);
     }
     const V opacity = hn::Load(d, opacity_ + at_);
     const V onward = hn::Sub(visibility, hn::MulFixedPoint15(visibility, opacity));
     hn::Store(onward, d, now_ + at_);
     const hn::Rebind<std::uint8_t, D> d8;
-    hn::Store(hn::DemoteTo(d8, hn::ShiftRight<7>(visibility)), d8, out_ + at_);
-    w_ = {onward, c01, b00, b01};
+    const auto bytes = hn::DemoteTo(d8, hn::ShiftRight<7>(visibility));
+    if constexpr (kSides == 1) {
+      hn::Store(bytes, d8, out_[0] + at_);
+    } else {
+      const hn::Half<decltype(d8)> dh;
+      hn::Store(hn::LowerHalf(dh, bytes), dh, out_[0] + at_ / kSides);
+      hn::Store(hn::UpperHalf(dh, bytes), dh, out_[1] + at_ / kSides);
+    }
+    c10_ = onward;
+    c01_ = c01;
+    b00_ = b00;
+    b01_ = b01;
     at_ += kStep;
     other_ += kStep;
   }
 
  private:
-  static constexpr std::ptrdiff_t kStep = kForward ? kRows : -kRows;
+  static constexpr std::ptrdiff_t kStep = kForward ? kLanes : -kLanes;
+  V first_, second_;
   // What it keeps from step to step. `c` are values of this plane, `b` of the one before; the
   // digits say how far back along x and y.
-  struct {
-    V c10, c01, b00, b01;
-  } w_;
-  std::int16_t* const now_;
-  const std::int16_t* const before_;
-  const std::int16_t* const opacity_;
-  std::uint8_t* const out_;
+  V c10_, c01_, b00_, b01_;
+  std::int16_t* now_;
+  const std::int16_t *before_, *opacity_;
+  std::uint8_t* out_[kSides];
   std::ptrdiff_t at_, other_;
 };
 
-// Four orders in step: each waits for its own last vector, and the others fill the time.
-// kAxis -1: upwind; else the characteristic through the face across that axis.
-template <int kAxis>
-void SweepDirectionOf(const Layout& layout, const Order orders[4], float first_share,
-                      float second_share) {
-  const D d;
-  auto share = [&](float s) HWY_ATTR {
-    return hn::Set(d, static_cast<std::int16_t>(std::min(32767.0f, s * 32768.0f)));
-  };
-  const V first = share(first_share), second = share(second_share);
+// Directions with one stencil in all four orders, in step: each waits for its own last vector, and
+// the others fill the time.
+template <int kAxis, std::size_t... kWalks>
+void SweepDirections(const Layout& layout, const Order* orders, const SweepDirection* directions,
+                     std::index_sequence<kWalks...>) {
   const int steps = layout.steps;
   for (int s = 0; s < layout.strips; ++s) {
-    StripWalk<true, kAxis> w0(layout, orders[0], s);
-    StripWalk<false, kAxis> w1(layout, orders[1], s);
-    StripWalk<true, kAxis> w2(layout, orders[2], s);
-    StripWalk<false, kAxis> w3(layout, orders[3], s);
+    // Walk i is of direction i / pairs and of the lane groups 2 (i % pairs) and one more.
+    constexpr int kPairs = kGroups / 2;
+    StripWalk<true, kAxis> up[sizeof...(kWalks)];
+    StripWalk<false, kAxis> down[sizeof...(kWalks)];
+    (up[kWalks].start(layout, orders[2 * kWalks], directions[kWalks / kPairs], s), ...);
+    (down[kWalks].start(layout, orders[2 * kWalks + 1], directions[kWalks / kPairs], s), ...);
     int t = 0;
     if (s > 0) {
       for (; t < steps - kRows + 1; ++t) {
-        w0.template step<true>(first, second);
-        w1.template step<true>(first, second);
-        w2.template step<true>(first, second);
-        w3.template step<true>(first, second);
+        ((up[kWalks].template step<true>(), down[kWalks].template step<true>()), ...);
       }
     }
     for (; t < steps; ++t) {
-      w0.template step<false>(first, second);
-      w1.template step<false>(first, second);
-      w2.template step<false>(first, second);
-      w3.template step<false>(first, second);
+      ((up[kWalks].template step<false>(), down[kWalks].template step<false>()), ...);
     }
+  }
+}
+
+// kTogether directions with the stencil of the first.
+template <int kTogether>
+void SweepAlike(const Layout& layout, const Order* orders, const SweepDirection* directions) {
+  constexpr std::make_index_sequence<kTogether * kGroups / 2> kWalks;
+  if (directions->stencil == Stencil::kUpwind) {
+    SweepDirections<-1>(layout, orders, directions, kWalks);
+  } else if (directions->axis == 0) {
+    SweepDirections<0>(layout, orders, directions, kWalks);
+  } else if (directions->axis == 1) {
+    SweepDirections<1>(layout, orders, directions, kWalks);
+  } else {
+    SweepDirections<2>(layout, orders, directions, kWalks);
   }
 }
 
 // Opacities of a plane as skewed vectors; rows beside the plane's are open.
 void SkewPlane(const Layout& layout, const std::uint8_t* tau, int width, int height, bool mirrored,
                std::uint8_t* rows, std::ptrdiff_t pitch, std::int16_t* opacity) {
-  const D d;
-  const hn::Rebind<std::uint8_t, D> d8;
-  const hn::RebindToUnsigned<D> du;
+  const RowsTag d;
+  const hn::Rebind<std::uint8_t, RowsTag> d8;
+  const hn::RebindToUnsigned<RowsTag> du;
   HWY_ALIGN std::uint8_t columns[kBlock * kRows];
   for (int s = 0; s < layout.strips; ++s) {
     for (int j = 0; j < kRows; ++j) {
@@ -185,10 +216,10 @@ void SkewPlane(const Layout& layout, const std::uint8_t* tau, int width, int hei
                     static_cast<std::size_t>(width));
       }
     }
-    std::int16_t* to = opacity + s * layout.strip_size();
+    std::int16_t* to = opacity + s * layout.strip_size() * kSides;
     for (int t = 0; t < layout.steps; t += kBlock) {
       SkewBytes<kRows>(rows + kBlock + t, pitch - 1, columns);
-      for (int i = 0; i < kBlock; ++i, to += kRows) {
+      for (int i = 0; i < kBlock; ++i, to += kLanes) {
         const auto bytes = hn::Load(d8, columns + i * kRows);
         const auto v = hn::Sub(hn::Set(du, 255), hn::PromoteTo(du, bytes));
         // 255 becomes 32767, 0 stays.
@@ -355,24 +386,25 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
     const std::ptrdiff_t voxels = static_cast<std::ptrdiff_t>(width) * height;
     for (int m = 0; m < 2; ++m) {
       SkewPlane(layout, sweep.tau + z * voxels, width, height, m == 1, plain_rows, pitch,
-                opacity + m * plane);
+                opacity + m * (kSides == 2 ? kRows : plane));
     }
+    Order orders[kMaxDirections * kGroups];
     for (int i = 0; i < sweep.count; ++i) {
-      const SweepDirection& dir = sweep.directions[i];
-      Order orders[4];
-      for (int o = 0; o < 4; ++o) {
-        const std::ptrdiff_t at = (o * sweep.count + i) * plane;
-        orders[o] = {now + at, before + at, opacity + o / 2 * plane, out + at};
+      for (int g = 0; g < kGroups; ++g) {
+        const std::ptrdiff_t at = (i * kGroups + g) * plane * kSides;
+        Order& o = orders[i * kGroups + g];
+        o = {now + at, before + at, opacity + g / 2 * plane, {}};
+        for (int side = 0; side < kSides; ++side) {
+          o.out[side] = out + ((g + 2 * side) * sweep.count + i) * plane;
+        }
       }
-      if (dir.stencil == Stencil::kUpwind) {
-        SweepDirectionOf<-1>(layout, orders, dir.first, dir.second);
-      } else if (dir.axis == 0) {
-        SweepDirectionOf<0>(layout, orders, dir.first, dir.second);
-      } else if (dir.axis == 1) {
-        SweepDirectionOf<1>(layout, orders, dir.first, dir.second);
-      } else {
-        SweepDirectionOf<2>(layout, orders, dir.first, dir.second);
-      }
+    }
+    for (int i = 0, together = 1; i < sweep.count; i += together) {
+      const SweepDirection* dir = sweep.directions + i;
+      // The upwind stencil keeps little and waits long: three directions fill wide registers.
+      const bool three = kSides == 2 && dir->stencil == Stencil::kUpwind && i + 3 <= sweep.count;
+      together = three ? 3 : 1;
+      (three ? SweepAlike<3> : SweepAlike<1>)(layout, orders + i * kGroups, dir);
     }
     if (apart) std::swap(now, before);
 
@@ -422,7 +454,14 @@ int TransmittanceVectors(const float* const* rows, int width, float scale, float
                    hn::Add(hn::LoadU(d, rows[2] + x), hn::LoadU(d, rows[3] + x)));
   };
   int x = 0;
+  const int floats_of_line = kCacheLine / static_cast<int>(sizeof(float));
   for (; (x + lanes) * kCell <= width; x += lanes) {
+    // The rows after these come next.
+    for (int r = 0; r < kCell * kCell; ++r) {
+      for (int i = 0; i < kCell * lanes; i += floats_of_line) {
+        hwy::Prefetch(rows[r] + kCell * (width + x) + i);
+      }
+    }
     VF sum = down(x * kCell);
     if constexpr (kCell == 2) {
       const VF next = down(x * kCell + lanes);

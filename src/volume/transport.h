@@ -28,17 +28,17 @@ class PlaneTable {
   // Heights of the voxels between which a look-up interpolates, with their shares.
   class Heights {
    public:
+    Heights() = default;
     explicit Heights(const PlaneTable& table) : per_height_(table.per_height_) {}
     void add(float height, float share);
 
    private:
     friend PlaneTable;
-    float per_height_;
+    float per_height_ = 0;
     int first_ = kHeights, last_ = -1;
     float share_[kHeights] = {};
   };
 
-  PlaneTable() = default;
   // `spacing` is of the scheme's grid, `unit` what tau is measured in (equation 7).
   PlaneTable(const TransportScheme& scheme, const std::array<float, 3>& spacing, float unit,
              float alpha, Executor& executor);

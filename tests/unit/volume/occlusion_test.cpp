@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "hwy/targets.h"
 #include "obscura/volume.h"
 #include "tests/reference/volume_sweeps.h"
 #include "volume/occlusion_kernel.h"
@@ -86,7 +87,7 @@ TEST(OctantGeometry, AgreesWithQuadrature) {
 }
 
 // Fixed point in skewed vectors against plain loops in floats, for sizes that fill no vector.
-TEST(Occlusion, VectorsAgreeWithPlainLoops) {
+void compare_vectors_with_loops() {
   for (const std::array<int, 3> n : {std::array<int, 3>{31, 22, 18},
                                      {16, 16, 16},
                                      {1, 37, 40},
@@ -109,6 +110,15 @@ TEST(Occlusion, VectorsAgreeWithPlainLoops) {
         }
       }
     }
+  }
+}
+
+TEST(Occlusion, VectorsAgreeWithPlainLoopsOnEveryTarget) {
+  for (const std::uint32_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    compare_vectors_with_loops();
+    hwy::SetSupportedTargetsForTest(0);
   }
 }
 

@@ -29,7 +29,7 @@ struct LightCommand {
   double sun_radius_deg = 0.27, heading_deg = 0, pitch_deg = 0, exposure = 0;
   std::string cones = "cosine", comparator = "none";
   bool no_background = false, no_cache = false, half = false;
-  int threads = 0;
+  int threads = 0, supersample = 1;
 };
 
 Status parse_three(const char* option, const std::string& text, double min, float* values) {
@@ -207,6 +207,24 @@ void fill_background(const LoadedInput& input, const std::array<float, 9>& m,
   }
 }
 
+// Means of n x n pixels.
+support::Image reduced(const support::Image& image, int n) {
+  support::Image result(image.width / n, image.height / n);
+  for (const auto& channel : image.channels) {
+    std::vector<float>& to = result.add(channel.name);
+    for (int y = 0; y < result.height; ++y) {
+      for (int x = 0; x < result.width; ++x) {
+        double sum = 0;
+        for (int i = 0; i < n * n; ++i) {
+          sum += channel.values[std::size_t(y * n + i / n) * image.width + x * n + i % n];
+        }
+        to[std::size_t(y) * result.width + x] = static_cast<float>(sum / (n * n));
+      }
+    }
+  }
+  return result;
+}
+
 // Linear light as a screen shows it, brightened by `exposure` stops.
 void to_srgb(double exposure, support::Image* image) {
   const auto gain = static_cast<float>(std::exp2(exposure));
@@ -292,6 +310,10 @@ Status run_light(const LightCommand& c, bool quiet) {
 
   Buffers buffers(input.field());
   const int w = buffers.image.width, h = buffers.image.height;
+  if (w % c.supersample != 0 || h % c.supersample != 0) {
+    return invalid_argument(fmt::format(
+        "--supersample is {}; the visible size, {}x{}, is no multiple of it", c.supersample, w, h));
+  }
   support::Image image(w, h);
   for (const char* name : {"R", "G", "B"}) image.add(name);
   support::ProgressBar bar(c.method.method(), !quiet);
@@ -313,6 +335,7 @@ Status run_light(const LightCommand& c, bool quiet) {
   const double lit = watch.seconds();
 
   fill_background(input, settings.world_from_eye, c.no_background ? nullptr : &environment, &image);
+  if (c.supersample > 1) image = reduced(image, c.supersample);
   if (support::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
   support::WriteOptions write;
   write.half = c.half;
@@ -333,8 +356,8 @@ Status run_light(const LightCommand& c, bool quiet) {
   report.add(name, "time to compute", 1e3 * (estimated - prepared), "ms");
   report.add(name, "time to light", 1e3 * (lit - estimated), "ms");
   if (!quiet && c.json != "-") {
-    fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, w, h, name, c.method.method(),
-               source.name, from_cache ? " (cached)" : "", watch.seconds());
+    fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, image.width, image.height, name,
+               c.method.method(), source.name, from_cache ? " (cached)" : "", watch.seconds());
   }
   return write_json(report, c.json);
 }
@@ -395,6 +418,12 @@ void add_light(App& app) {
                     "Leave pixels without geometry black instead of showing the environment");
   command->add_flag("--no-cache", c->no_cache,
                     "Neither read nor write $XDG_CACHE_HOME/obscura (~/.cache/obscura)");
+  command
+      ->add_option("--supersample", c->supersample,
+                   "Averages N x N pixels of the lit picture into one, against jagged edges: give "
+                   "an input or --size N times as large [1 to 8, default 1]")
+      ->check(CLI::Range(1, 8))
+      ->type_name("N");
   c->method.add_to(command, kDefaultMethod);
   c->input.add_to(command);
   add_threads_option(command, &c->threads);

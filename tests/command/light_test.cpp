@@ -73,6 +73,27 @@ TEST_F(LightCommandTest, ComparatorsLightThePicture) {
   EXPECT_NE(other.err.find("needs --method hemisphere or ray-traced"), std::string::npos);
 }
 
+TEST_F(LightCommandTest, SupersamplingAveragesPixels) {
+  const std::string command = "light scene:hall --size 32x18 --no-cache --environment sky -o ";
+  ASSERT_EQ(run(command + "full.pfm").code, 0);
+  ASSERT_EQ(run(command + "half.pfm --supersample 2").code, 0);
+  support::Image full, half;
+  ASSERT_TRUE(support::read_image(path("full.pfm"), &full).ok());
+  ASSERT_TRUE(support::read_image(path("half.pfm"), &half).ok());
+  ASSERT_EQ(half.width, 16);
+  ASSERT_EQ(half.height, 9);
+  const std::vector<float>&f = full.channels[1].values, &h = half.channels[1].values;
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const float* a = &f[std::size_t(2 * y) * 32 + 2 * x];
+      EXPECT_NEAR(h[y * 16 + x], (a[0] + a[1] + a[32] + a[33]) / 4, 1e-5f);
+    }
+  }
+  const CommandResult r = run(command + "x.pfm --supersample 4");
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("--supersample is 4"), std::string::npos) << r.err;
+}
+
 TEST_F(LightCommandTest, KeepsTheConvolution) {
   const std::string command = "light scene:hall --size 16x9 --environment sky -o lit.png";
   EXPECT_EQ(run(command, "export XDG_CACHE_HOME=$PWD/cache;").code, 0);

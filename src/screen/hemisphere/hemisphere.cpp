@@ -7,16 +7,16 @@
 
 #include "core/random.h"
 #include "core/volumetric.h"
-#include "filters/bilateral_kernel.h"
+#include "directional/interleaved.h"
 #include "screen/hemisphere/hemisphere_kernel.h"
 
 namespace obscura {
 namespace {
 
-using hemisphere::kChannels;
+using directional::kChannels;
+using directional::Sums;
 
 constexpr int kRowsPerTask = 8;
-constexpr int kMargin = 16;  // pixels left and right of each row
 
 // 0 ... count - 1 in random order.
 std::vector<int> shuffled(int count, Random* random) {
@@ -70,19 +70,6 @@ void set_pattern(const HemisphereSettings& s, hemisphere::Frame* f) {
   }
 }
 
-// Four images with margins: one set of sums.
-struct Channels {
-  AlignedImage<float> planes[kChannels];
-
-  void resize(int width, int height) {
-    for (auto& p : planes) {
-      p.resize(width + 2 * kMargin, height);
-      std::fill_n(p.data(), p.stride() * height, 0.0f);
-    }
-  }
-  float* row(int c, int y) { return planes[c].row(y) + kMargin; }
-};
-
 class HemisphereMethod final : public Method {
  public:
   HemisphereMethod(const HemisphereSettings& settings, int width, int height)
@@ -97,13 +84,7 @@ class HemisphereMethod final : public Method {
     frame_.interleave = settings.interleave;
     set_pattern(settings, &frame_);
     if (settings.radiance) set_light();
-    sums_.resize(width, height);
-    if (settings.blur && settings.interleave > 1) {
-      rows_.resize(width, height);
-      normals_.resize(width, height);
-      surface_.resize(width + 2 * kMargin, height);
-      std::fill_n(surface_.data(), surface_.stride() * height, 0.0f);
-    }
+    sums_.resize(width, height, settings.blur && settings.interleave > 1);
   }
 
   view::Needs needs() const override { return {.normals = true}; }
@@ -129,23 +110,22 @@ class HemisphereMethod final : public Method {
       part.cone_angle = o.cone_angle;
       part.uniform_integral = o.uniform_integral;
       if (uniform_visibility) std::swap(part.visibility, left.visibility);
-      if (Status s = pass(g, part, kUniform, directions, context); !s.ok()) return s;
+      if (Status s = pass(g, part, Sums::kUniform, directions, context); !s.ok()) return s;
     }
     if (!left.visibility.empty() || !o.cosine_integral.empty()) {
       Outputs part;
       part.visibility = left.visibility;
       part.cosine_integral = o.cosine_integral;
-      if (Status s = pass(g, part, kCosine, !o.cosine_integral.empty(), context); !s.ok()) return s;
+      if (Status s = pass(g, part, Sums::kCosine, !o.cosine_integral.empty(), context); !s.ok())
+        return s;
     }
     if (o.radiance.empty()) return {};
     Outputs part;
     part.radiance = o.radiance;
-    return pass(g, part, kRadiance, true, context);
+    return pass(g, part, Sums::kRadiance, true, context);
   }
 
  private:
-  enum Kind { kUniform, kCosine, kRadiance };
-
   void set_light() {
     constexpr int kCells = 32, kSide = kCells + 1;
     for (auto& plane : light_) plane.resize(std::size_t{6} * kSide * kSide);
@@ -186,127 +166,48 @@ class HemisphereMethod final : public Method {
     frame_.center_v = g.camera.center_v;
   }
 
-  template <class Body>  // body(y)
-  static void for_rows(int height, const RunContext& context, const Body& body) {
-    context.executor.parallel_for((height + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int) {
-      const int end = std::min(height, (task + 1) * kRowsPerTask);
-      for (int y = task * kRowsPerTask; y < end; ++y) body(y);
-    });
-  }
-
   // Sums of one kind, their blur, and the results that come from them.
-  Status pass(const view::Geometry& g, const Outputs& o, Kind kind, bool directions,
+  Status pass(const view::Geometry& g, const Outputs& o, Sums kind, bool directions,
               const RunContext& context) {
     const int width = g.visible_width(), height = g.visible_height();
     const int channels = directions ? kChannels : 1;
     Progress progress(height, context.progress);
-    for_rows(height, context, [&](int y) {
-      if (progress.cancelled()) return;
-      hemisphere::Sums sums;
-      float** to = kind == kUniform ? sums.uniform : kind == kCosine ? sums.cosine : sums.radiance;
-      for (int c = 0; c < (kind == kRadiance ? 3 : channels); ++c) to[c] = sums_.row(c, y);
-      hemisphere::sum_row(frame_, y, width, sums);
-      // Whole vectors were written; what the blur meets beyond the row counts nothing, if finite.
-      for (int c = 0; c < channels; ++c) std::fill_n(sums_.row(c, y) + width, kMargin, 0.0f);
-      progress.advance();
+    auto sum_rows = [&](int first, int end) {
+      for (int y = first; y < end; ++y) {
+        hemisphere::Sums sums;
+        float** to = kind == Sums::kUniform  ? sums.uniform
+                     : kind == Sums::kCosine ? sums.cosine
+                                             : sums.radiance;
+        for (int c = 0; c < (kind == Sums::kRadiance ? 3 : channels); ++c) to[c] = sums_.row(c, y);
+        hemisphere::sum_row(frame_, y, width, sums);
+        sums_.close_row(channels, width, y);
+      }
+    };
+    context.timer.time("sample", [&] {
+      const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
+      context.executor.parallel_for(tasks, [&](int task, int) {
+        if (progress.cancelled()) return;
+        const int first = task * kRowsPerTask, end = std::min(height, first + kRowsPerTask);
+        sum_rows(first, end);
+        progress.advance(end - first);
+      });
     });
     if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
-    if (settings_.blur && settings_.interleave > 1) blur(g, channels, context);
-    for_rows(height, context, [&](int y) { finish(g, o, kind, directions, y); });
+    context.timer.time("blur", [&] {
+      sums_.resolve(g,
+                    {.sums = kind,
+                     .directions = directions,
+                     .interleave = settings_.blur ? settings_.interleave : 1,
+                     .edge = 0.5f * frame_.radius,
+                     .paper_cone = settings_.cone == ConeEstimate::kPaper},
+                    o, context.executor);
+    });
     return {};
-  }
-
-  // Taps up to half the tile away, the outermost with half the weight: each pixel of the tile
-  // counts the same.
-  void blur(const view::Geometry& g, int channels, const RunContext& context) {
-    const int width = g.visible_width(), height = g.visible_height();
-    const int m = settings_.interleave, reach = m / 2;
-    hemisphere::BlurRow shared;
-    shared.channels = channels;
-    shared.orthographic = g.camera.orthographic;
-    shared.edge = 0.5f * frame_.radius;
-    for (int k = 0; k <= reach; ++k) shared.weights[k] = m % 2 == 0 && k == reach ? 0.5f : 1.0f;
-    auto set_row = [&](hemisphere::BlurRow* row, Channels* from, Channels* to, int y) {
-      for (int c = 0; c < channels; ++c) {
-        row->values[c] = from->row(c, y);
-        row->out[c] = to->row(c, y);
-      }
-      row->surface = surface_.row(y) + kMargin;
-      for (int k = 0; k < 3; ++k) row->normal[k] = normals_.row(k, y);
-    };
-    for_rows(height, context, [&](int y) {
-      float* surface = surface_.row(y) + kMargin;
-      surface_row(g.depth.row(y + g.guard_band.top) + g.guard_band.left, width,
-                  g.camera.orthographic, surface);
-      std::fill_n(surface + width, kMargin, 0.0f);
-      const std::ptrdiff_t at = (g.guard_band.top + y) * g.depth.stride() + g.guard_band.left;
-      for (int k = 0; k < 3; ++k) std::copy_n(frame_.normal[k] + at, width, normals_.row(k, y));
-      hemisphere::BlurRow row = shared;
-      set_row(&row, &sums_, &rows_, y);
-      row.first_tap = -reach;
-      row.last_tap = reach;
-      hemisphere::blur_row(row, width);
-    });
-    for_rows(height, context, [&](int y) {
-      hemisphere::BlurRow row = shared;
-      set_row(&row, &rows_, &sums_, y);
-      row.value_step = rows_.planes[0].stride();
-      row.surface_step = surface_.stride();
-      row.normal_step = normals_.planes[0].stride();
-      row.first_tap = -std::min(reach, y);
-      row.last_tap = std::min(reach, height - 1 - y);
-      hemisphere::blur_row(row, width);
-    });
-  }
-
-  void finish(const view::Geometry& g, const Outputs& o, Kind kind, bool directions, int y) {
-    const int width = g.visible_width();
-    const bool cosine = kind == kCosine;
-    if (kind == kRadiance) {
-      const ImageView<float>* to[] = {&o.radiance.x, &o.radiance.y, &o.radiance.z};
-      for (int c = 0; c < 3; ++c) {
-        const float* from = sums_.row(c, y);
-        for (int x = 0; x < width; ++x) (*to[c])(x, y) = from[x];
-      }
-      return;
-    }
-    // Results replace the sums, row by row, in blocks that leave room for what is still to be read.
-    constexpr int kBlock = 256;
-    float block[8][kBlock];
-    const std::ptrdiff_t at = (g.guard_band.top + y) * g.depth.stride() + g.guard_band.left;
-    for (int x = 0; x < width; x += kBlock) {
-      const int count = std::min(kBlock, width - x);
-      const float* sums[kChannels] = {};
-      for (int c = 0; c < (directions ? kChannels : 1); ++c) sums[c] = sums_.row(c, y) + x;
-      const float* normal[3] = {frame_.normal[0] + at + x, frame_.normal[1] + at + x,
-                                frame_.normal[2] + at + x};
-      const VectorView<float>& integral = cosine ? o.cosine_integral : o.uniform_integral;
-      hemisphere::Results r;
-      r.visibility = block[0];
-      r.angle = o.cone_angle.empty() ? nullptr : block[1];
-      for (int k = 0; k < 3; ++k) {
-        r.direction[k] = o.bent_normal.empty() ? nullptr : block[2 + k];
-        r.integral[k] = integral.empty() ? nullptr : block[5 + k];
-      }
-      cosine ? hemisphere::finish_cosine_row(sums, normal, count, r)
-             : hemisphere::finish_uniform_row(sums, normal, settings_.cone == ConeEstimate::kPaper,
-                                              count, r);
-      auto copy = [&](const ImageView<float>& to, const float* from) {
-        if (to.empty()) return;
-        for (int i = 0; i < count; ++i) to(x + i, y) = from[i];
-      };
-      copy(o.visibility, block[0]);
-      copy(o.cone_angle, block[1]);
-      copy(o.bent_normal.x, block[2]), copy(o.bent_normal.y, block[3]);
-      copy(o.bent_normal.z, block[4]);
-      copy(integral.x, block[5]), copy(integral.y, block[6]), copy(integral.z, block[7]);
-    }
   }
 
   const HemisphereSettings settings_;
   hemisphere::Frame frame_;
-  Channels sums_, rows_, normals_;
-  AlignedImage<float> surface_;
+  directional::InterleavedSums sums_;
   std::vector<float> light_[3];
 };
 

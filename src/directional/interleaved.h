@@ -1,0 +1,56 @@
+#ifndef OBSCURA_SRC_DIRECTIONAL_INTERLEAVED_H_
+#define OBSCURA_SRC_DIRECTIONAL_INTERLEAVED_H_
+
+#include "core/aligned_image.h"
+#include "directional/interleaved_kernel.h"
+#include "obscura/executor.h"
+#include "obscura/outputs.h"
+#include "view/geometry.h"
+
+namespace obscura::directional {
+
+// What the sums hold (interleaved_kernel.h) and what becomes of them.
+enum class Sums {
+  kUniform,            // both by uniform weights
+  kUniformDirections,  // `open` by cosine weights, directions by uniform ones: since
+                       // n.(1/pi integral of V w) is the former, nothing else need be summed
+  kCosine,             // both by cosine weights
+  kRadiance,           // three channels of light
+};
+struct Resolve {
+  Sums sums = Sums::kUniform;
+  bool directions = false;  // all channels; else the first
+  int interleave = 1;       // pixels m x m share a pattern; 1: no blur
+  float edge = 0;           // surfaces farther apart are kept apart, world units
+  bool paper_cone = false;
+};
+
+// Sums of an interleaved pattern and their way to results: a blur over the m x m pixels that share
+// the pattern, edge-aware by depth and normal, then directions, cones and integrals.
+class InterleavedSums {
+ public:
+  // Makes room for images of at most this size.
+  void resize(int width, int height, bool blur);
+
+  // Where row y of a channel is written, whole vectors past the end too; finite on the background.
+  float* row(int channel, int y) { return sums_[channel].row(y) + kMargin; }
+  // To be called when a row is written.
+  void close_row(int channels, int width, int y);
+
+  void resolve(const view::Geometry& g, const Resolve& how, const Outputs& o, Executor& executor);
+
+ private:
+  static constexpr int kMargin = 16;  // pixels left and right of each row
+
+  void blur_rows(const view::Geometry& g, const BlurRow& shared, int reach, int y);
+  void blur_columns(const BlurRow& shared, int reach, int height, int y, int x, int count,
+                    float* const out[kChannels]);
+  void write(const view::Geometry& g, const Resolve& how, const Outputs& o, int y, int x, int count,
+             const float* const sums[kChannels]);
+
+  AlignedImage<float> sums_[kChannels], rows_[kChannels], normals_[3], surface_;
+};
+
+}  // namespace obscura::directional
+
+#endif  // OBSCURA_SRC_DIRECTIONAL_INTERLEAVED_H_

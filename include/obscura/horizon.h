@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "obscura/cone.h"
 #include "obscura/falloff.h"
 #include "obscura/far_field.h"
 
@@ -25,7 +26,8 @@ struct EnumNames<HorizonVariant> {
 
 // Ambient obscurance from horizons (Bavoil, Sainz, Dimitrov, "Image-space horizon-based ambient
 // occlusion", 2008) and its stronger relative: a few samples along each of K directions, which
-// m x m neighbouring pixels turn and shift by different parts of a direction and of a step.
+// m x m neighbouring pixels turn and shift by different parts of a direction and of a step. Both
+// give bent normals and cones, the slices also the cosine-weighted integral.
 struct HorizonSettings {
   Falloff falloff{};  // slices: any
   HorizonVariant variant = HorizonVariant::kSlices;
@@ -34,7 +36,8 @@ struct HorizonSettings {
   int steps = 8;                                      // samples per direction
   float angle_bias = 0.1f;  // classic: radians above the tangent plane that do not count
   int interleave = 4;       // m
-  bool blur = true;
+  bool blur = true;         // over m x m pixels
+  ConeEstimate cone = ConeEstimate::kExact;
   std::uint32_t seed = 1;
 };
 template <FieldsOf<HorizonSettings> Self, class Visitor>
@@ -49,6 +52,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
                         "Size m of the m x m pixels that share one larger pattern."});
   v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
 

@@ -61,9 +61,7 @@ Status make_method(const HemisphereSettings& s, int w, int h, std::unique_ptr<Me
 }
 
 Status make_method(const HorizonSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  if (Status status = make_horizon(s, m); !status.ok()) return status;
-  if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
-  return {};
+  return make_horizon(s, w, h, m);
 }
 
 Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {

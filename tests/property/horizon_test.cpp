@@ -217,6 +217,115 @@ TEST(Horizon, BackgroundIsOpenAndDoesNotOcclude) {
   }
 }
 
+struct Directions {
+  std::vector<float> visibility, angle, bent, uniform, cosine, normal;
+  double dot(const std::vector<float>& a, const std::vector<float>& b, std::size_t i) const {
+    return double(a[3 * i]) * b[3 * i] + double(a[3 * i + 1]) * b[3 * i + 1] +
+           double(a[3 * i + 2]) * b[3 * i + 2];
+  }
+};
+Directions directions(const synthetic::Input& in, const MethodSettings& settings,
+                      bool cosine = true) {
+  const std::size_t n = in.depth.size();
+  Directions r;
+  for (auto* v : {&r.visibility, &r.angle}) v->assign(n, -9);
+  for (auto* v : {&r.bent, &r.uniform, &r.cosine, &r.normal}) v->assign(3 * n, -9);
+  auto vector = [&](std::vector<float>& v) {
+    return VectorView<float>::interleaved(v.data(), in.width, in.height);
+  };
+  Outputs o;
+  o.visibility = {r.visibility.data(), in.width, in.height};
+  o.cone_angle = {r.angle.data(), in.width, in.height};
+  o.bent_normal = vector(r.bent);
+  o.uniform_integral = vector(r.uniform);
+  if (cosine) o.cosine_integral = vector(r.cosine);
+  o.normal = vector(r.normal);
+  const Status s = compute(in.field(), settings, o);
+  EXPECT_TRUE(s.ok()) << s.message();
+  return r;
+}
+
+double mean_degrees(const Directions& a, const Directions& b) {
+  double sum = 0;
+  const std::size_t n = a.visibility.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += std::acos(std::clamp(a.dot(a.bent, b.bent, i), -1.0, 1.0));
+  }
+  return sum / static_cast<double>(n) * 180 / std::numbers::pi;
+}
+
+TEST(HorizonDirections, OpenPlanesLookAlongTheirNormals) {
+  for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    for (bool orthographic : {false, true}) {
+      const Camera camera =
+          orthographic ? Camera::orthographic_height(4, 90, 70) : Camera::perspective(1, 90, 70);
+      const synthetic::Input in = synthetic::plane(90, 70, camera, 0.48, 0.36, 0.8, 10);
+      HorizonSettings s;
+      s.variant = variant;
+      const Directions r = directions(in, s, variant == HorizonVariant::kSlices);
+      for (std::size_t i = 0; i < in.depth.size(); ++i) {
+        EXPECT_GT(r.dot(r.bent, r.normal, i), 0.9999);
+        EXPECT_GT(r.angle[i], 1.52f);
+        EXPECT_NEAR(r.dot(r.uniform, r.normal, i), 1, 0.003);
+        if (variant == HorizonVariant::kSlices) {
+          EXPECT_NEAR(r.dot(r.cosine, r.normal, i), 2.0 / 3, 0.003);
+        }
+      }
+    }
+  }
+}
+
+TEST(HorizonDirections, UniformIntegralCarriesTheVisibility) {
+  const synthetic::Input in = synthetic::blocks(120, 80, Camera::perspective(1, 120, 80), 3);
+  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+    HorizonSettings s;
+    s.falloff = {.kind = kind, .radius = 0.5f};
+    const Directions r = directions(in, s);
+    const std::vector<float> alone = visibility(in, s);
+    for (std::size_t i = 0; i < in.depth.size(); ++i) {
+      if (!std::isfinite(in.depth[i])) continue;
+      ASSERT_NEAR(r.dot(r.normal, r.uniform, i), r.visibility[i], 2e-3);
+      ASSERT_NEAR(alone[i], r.visibility[i], 1e-4);
+    }
+  }
+}
+
+// Two independent ways: rays of the reference carry the same three quantities.
+TEST(HorizonDirections, SlicesAgreeWithRaysThroughTheDepthField) {
+  const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 4);
+  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+    ReferenceSettings truth;
+    truth.falloff = {.kind = kind, .radius = 0.5f};
+    HorizonSettings s = dense();
+    s.falloff = truth.falloff;
+    const Directions a = directions(in, s), b = directions(in, truth);
+    EXPECT_LT(mean_degrees(a, b), 3) << enum_name(kind);
+    EXPECT_LT(mean_difference(a.angle, b.angle), 0.04) << enum_name(kind);
+    EXPECT_LT(mean_difference(a.uniform, b.uniform), 0.02) << enum_name(kind);
+    EXPECT_LT(mean_difference(a.cosine, b.cosine), 0.015) << enum_name(kind);
+  }
+}
+
+// A wall of endless height beside a floor seen from above: next to it half the hemisphere is
+// blocked, and the mean direction of the other half, a quarter sphere, is (1/2, 0, 1/2).
+TEST(HorizonDirections, BesideAWallHalfIsOpen) {
+  synthetic::Input in =
+      synthetic::plane(64, 64, Camera::orthographic_height(2, 64, 64), 0, 0, 1, 50);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 32; ++x) in.depth[y * 64 + x] = 49.5f;
+  }
+  HorizonSettings s = dense();
+  s.variant = HorizonVariant::kClassic;
+  s.falloff.radius = 20;
+  const Directions r = directions(in, s, false);
+  const std::size_t i = 32 * 64 + 32;
+  const double length = std::sqrt(0.5);
+  EXPECT_NEAR(r.visibility[i], 0.5, 0.03);
+  EXPECT_NEAR(r.bent[3 * i], 0.5 / length, 0.05);
+  EXPECT_NEAR(r.bent[3 * i + 1], 0, 0.02);
+  EXPECT_NEAR(r.angle[i], std::acos(2 * length - 1), 0.1);
+}
+
 TEST(Horizon, RefusesWrongSettings) {
   auto refused = [](auto change) {
     HorizonSettings s;

@@ -6,14 +6,17 @@
 #include <vector>
 
 #include "core/random.h"
+#include "directional/interleaved.h"
 #include "screen/horizon/horizon_kernel.h"
-#include "screen/rows.h"
 
 namespace obscura {
 namespace {
 
 // Matter whose weight is below this is not looked for.
 constexpr float kLeastWeight = 0.04f;
+// Share of the farthest depth.
+constexpr float kLongestEdge = 0.1f;
+constexpr int kRowsPerTask = 8;
 
 // Where rho has fallen to kLeastWeight, to a per cent of that length.
 float reach_of(const math::Rho& rho) {
@@ -66,39 +69,99 @@ void set_pattern(const HorizonSettings& s, horizon::Frame* f) {
 
 class HorizonMethod final : public Method {
  public:
-  HorizonMethod(const HorizonSettings& settings, math::Rho rho)
-      : classic_(settings.variant == HorizonVariant::kClassic), rho_(std::move(rho)) {
+  HorizonMethod(const HorizonSettings& settings, math::Rho rho, int width, int height)
+      : settings_(settings), rho_(std::move(rho)) {
     frame_.rho = &rho_;
-    frame_.reach = classic_ ? settings.falloff.radius : reach_of(rho_);
+    frame_.reach = classic() ? settings.falloff.radius : reach_of(rho_);
+    frame_.chord = settings.profile == SlabProfile::kAdaptiveChord;
     frame_.directions = settings.directions;
     frame_.steps = settings.steps;
     frame_.interleave = settings.interleave;
-    frame_.chord = settings.profile == SlabProfile::kAdaptiveChord;
     frame_.bias_sine = std::sin(settings.angle_bias);
     frame_.bias_cosine = std::cos(settings.angle_bias);
     set_pattern(settings, &frame_);
+    sums_.resize(width, height, blurred());
   }
 
   view::Needs needs() const override { return {.normals = true}; }
+  OutputKinds output_kinds() const override {
+    return {.bent_normal = true,
+            .cone_angle = true,
+            .uniform_integral = true,
+            .cosine_integral = !classic()};
+  }
 
-  Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
-    if (outputs.visibility.empty()) return {};
+  Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
     frame_.view = view::make_tap_frame(g, frame_.reach);
-    const auto kernel = classic_ ? horizon::classic_row : horizon::slices_row;
-    return run_rows(g, outputs.visibility, context, [&](int row, int begin, int end, float* out) {
-      kernel(frame_, row, begin, end, out);
-    });
+    Outputs left = o;
+    if (!o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty()) {
+      const Sums sums = classic() ? Sums::kUniform : Sums::kUniformDirections;
+      if (Status s = pass(g, left, sums, true, context); !s.ok()) return s;
+      left.visibility = {};
+    }
+    if (left.visibility.empty() && o.cosine_integral.empty()) return {};
+    const Sums sums = classic() ? Sums::kUniform : Sums::kCosine;
+    return pass(g, left, sums, !o.cosine_integral.empty(), context);
   }
 
  private:
-  const bool classic_;
+  using Sums = directional::Sums;
+
+  bool classic() const { return settings_.variant == HorizonVariant::kClassic; }
+  bool blurred() const { return settings_.blur && settings_.interleave > 1; }
+
+  // Sums of one kind, their blur, and the results that come from them.
+  Status pass(const view::Geometry& g, const Outputs& o, Sums kind, bool directions,
+              const RunContext& context) {
+    const int width = g.visible_width(), height = g.visible_height();
+    const int channels = directions ? directional::kChannels : 1;
+    const SliceSums slice_sums = !directions             ? SliceSums::kVisibility
+                                 : kind == Sums::kCosine ? SliceSums::kCosine
+                                                         : SliceSums::kUniform;
+    Progress progress(height, context.progress);
+    auto sum_rows = [&](int first, int end) {
+      for (int y = first; y < end; ++y) {
+        float* out[directional::kChannels] = {};
+        for (int c = 0; c < channels; ++c) out[c] = sums_.row(c, y);
+        classic() ? horizon::classic_row(frame_, y, width, out)
+                  : horizon::slices_row(frame_, slice_sums, y, width, out);
+        sums_.close_row(channels, width, y);
+      }
+    };
+    context.timer.time("sample", [&] {
+      const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
+      context.executor.parallel_for(tasks, [&](int task, int) {
+        if (progress.cancelled()) return;
+        const int first = task * kRowsPerTask, end = std::min(height, first + kRowsPerTask);
+        sum_rows(first, end);
+        progress.advance(end - first);
+      });
+    });
+    if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
+    // A radius without end tells nothing of where one surface ends and another begins.
+    const float edge = std::min(rho_.radius, kLongestEdge * g.max_depth);
+    context.timer.time("blur", [&] {
+      sums_.resolve(g,
+                    {.sums = kind,
+                     .directions = directions,
+                     .interleave = blurred() ? settings_.interleave : 1,
+                     .edge = std::max(0.5f * edge, 1e-30f),
+                     .paper_cone = settings_.cone == ConeEstimate::kPaper},
+                    o, context.executor);
+    });
+    return {};
+  }
+
+  const HorizonSettings settings_;
   const math::Rho rho_;
   horizon::Frame frame_;
+  directional::InterleavedSums sums_;
 };
 
 }  // namespace
 
-Status make_horizon(const HorizonSettings& settings, std::unique_ptr<Method>* method) {
+Status make_horizon(const HorizonSettings& settings, int width, int height,
+                    std::unique_ptr<Method>* method) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(settings.falloff); !s.ok()) return s;
   if (settings.variant == HorizonVariant::kClassic && !std::isfinite(settings.falloff.radius)) {
@@ -106,7 +169,7 @@ Status make_horizon(const HorizonSettings& settings, std::unique_ptr<Method>* me
   }
   math::Rho rho;
   if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;
-  *method = std::make_unique<HorizonMethod>(settings, std::move(rho));
+  *method = std::make_unique<HorizonMethod>(settings, std::move(rho), width, height);
   return {};
 }
 

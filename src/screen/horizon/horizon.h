@@ -8,9 +8,10 @@
 
 namespace obscura {
 
-// Horizon-based ambient obscurance; settings and paper: obscura/horizon.h. The blur is not part of
-// it (see screen/blurred.h).
-Status make_horizon(const HorizonSettings& settings, std::unique_ptr<Method>* method);
+// Horizon-based ambient obscurance; settings and paper: obscura/horizon.h. `width` x `height` is
+// the whole depth image.
+Status make_horizon(const HorizonSettings& settings, int width, int height,
+                    std::unique_ptr<Method>* method);
 
 }  // namespace obscura
 

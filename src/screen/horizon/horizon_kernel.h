@@ -1,13 +1,15 @@
 #ifndef OBSCURA_SRC_SCREEN_HORIZON_HORIZON_KERNEL_H_
 #define OBSCURA_SRC_SCREEN_HORIZON_HORIZON_KERNEL_H_
 
+#include "directional/interleaved_kernel.h"
 #include "math/falloff.h"
+#include "math/slice_sums.h"
 #include "view/tap_frame.h"
 
 namespace obscura::horizon {
 
 inline constexpr int kMaxDirections = 64;
-inline constexpr int kMaxInterleave = 8;
+using directional::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
 // What differs from pixel to pixel of the tile.
@@ -30,9 +32,12 @@ struct Frame {
   float bias_sine = 0, bias_cosine = 1;  // classic
 };
 
-// Write the visibility of the visible pixels [begin, end) of a visible row to out[0...].
-void slices_row(const Frame& frame, int row, int begin, int end, float* out);
-void classic_row(const Frame& frame, int row, int begin, int end, float* out);
+// Sums of one visible row as directional/interleaved_kernel.h has them; whole vectors are written
+// past the end. Slices: `open` is always cosine-weighted; kVisibility writes that channel alone.
+// Classic: all is uniform, directions are written if out[1] is there.
+using Rows = float* const[directional::kChannels];
+void slices_row(const Frame& frame, SliceSums sums, int row, int width, Rows out);
+void classic_row(const Frame& frame, int row, int width, Rows out);
 
 }  // namespace obscura::horizon
 

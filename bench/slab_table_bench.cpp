@@ -75,15 +75,14 @@ SliceSet slices_of(const support::DepthInput& in) {
 // The same integral by many midpoints per piece.
 double direct(const math::Rho& rho, const SliceSet& set, int slice) {
   constexpr int kSteps = 100;
-  double sum = 0, smallest = kPi, last_x = 0, last_y = 0;
+  double sum = 0, smallest = kPi;
   const double nz = set.nz[slice], nt = set.nt[slice];
-  bool chord = true;
   for (int i = 0; i < set.points; ++i) {
     const std::size_t at = static_cast<std::size_t>(i) * set.count + slice;
     const double x = set.x[at], y = set.y[at], angle = std::atan2(x, y);
     const bool visible = x >= 0 && angle < smallest;
     if (visible) {
-      const double ex = chord ? x - last_x : x, ey = chord ? y - last_y : y - set.camera[slice];
+      const double ex = x, ey = y - set.camera[slice];
       const double step = (smallest - angle) / kSteps;
       for (int k = 0; k < kSteps; ++k) {
         const double t = angle + step * (k + 0.5), s = std::sin(t), c = std::cos(t);
@@ -93,8 +92,6 @@ double direct(const math::Rho& rho, const SliceSet& set, int slice) {
       }
       smallest = angle;
     }
-    chord = visible;
-    last_x = x, last_y = y;
   }
   return sum;
 }

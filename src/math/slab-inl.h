@@ -126,6 +126,18 @@ inline constexpr float kLeastRise = 5e-4f;
 // Half the angle of pieces for which the middle alone is enough.
 inline constexpr float kSmallPiece = 0.25f;
 
+// Of an adaptive chord that rises by more than it goes outwards: an edge stands between its ends,
+// most likely halfway, and matter hangs below it away from the camera. Where along the tangent it
+// stands; elsewhere x.
+template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE V EdgeBefore(D d, V x, V y, const Horizon<D>& h) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const V outwards = hn::Sub(x, h.x), rise = hn::Sub(y, h.y);
+  const auto edge =
+      hn::And(h.chord, hn::And(hn::Gt(outwards, hn::Zero(d)), hn::Gt(rise, outwards)));
+  return hn::IfThenElse(edge, hn::NegMulAdd(hn::Set(d, 0.5f), outwards, x), x);
+}
+
 // Adds the next point outwards. `share` is the part of the slice's width in which the point stands,
 // 1 unless kPartial: the rest stays open, and the horizon moves by that part only.
 template <FalloffKind kKind, bool kChord, bool kPartial, SliceSums kSums = SliceSums::kVisibility,
@@ -140,8 +152,11 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   const M visible = hn::And(valid, hn::Gt(cosine, h.cosine));
   // A cosine that rounding puts above 1 would pass as visible for ever.
   const V c = hn::Min(cosine, one);
-  // What hardly raises the horizon, as all of a plane does, is left to the next point that does.
-  if (hn::AllFalse(d, hn::And(visible, hn::Gt(c, hn::Add(h.cosine_c, hn::Set(d, kLeastRise)))))) {
+  // What hardly raises the horizon, as all of a plane does, is left to the next point that does;
+  // but a share of the width must move it by that share.
+  M raises = hn::Gt(c, hn::Add(h.cosine_c, hn::Set(d, kLeastRise)));
+  if constexpr (kPartial) raises = hn::Or(raises, hn::Lt(share, one));
+  if (hn::AllFalse(d, hn::And(visible, raises))) {
     h.cosine = hn::IfThenElse(visible, c, h.cosine);
     h.x = x;
     h.y = y;
@@ -162,12 +177,15 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   if (!hn::AllFalse(d, hn::Gt(weight, zero))) {
     // rho averaged over the piece by three Gauss points, each with its share of the integral. The
     // distance to a line through the point along e is |p x e| / |w x e|.
-    V ex = hn::Mul(x, s.perspective), ey = hn::MulSub(y, s.perspective, s.camera);
+    V px = x;
+    if constexpr (kChord) px = EdgeBefore(d, x, y, h);
+    V ex = hn::Mul(px, s.perspective), ey = hn::MulSub(y, s.perspective, s.camera);
     if constexpr (kChord) {
-      ex = hn::IfThenElse(h.chord, hn::Sub(x, h.x), ex);
-      ey = hn::IfThenElse(h.chord, hn::Sub(y, h.y), ey);
+      const M chord = hn::And(h.chord, hn::Eq(px, x));
+      ex = hn::IfThenElse(chord, hn::Sub(x, h.x), ex);
+      ey = hn::IfThenElse(chord, hn::Sub(y, h.y), ey);
     }
-    const V numerator = hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex)));
+    const V numerator = hn::Abs(hn::MulSub(px, ey, hn::Mul(y, ex)));
     V mx = hn::Add(h.sine_c, sine_c), my = hn::Add(h.cosine_c, cosine_c);
     const V m2 = hn::Max(hn::MulAdd(mx, mx, hn::Mul(my, my)), tiny);
     const V im = FastInverseSqrt(d, m2);

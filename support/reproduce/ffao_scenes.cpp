@@ -158,6 +158,7 @@ FarFieldSettings far_field_for(const FfaoView& view, FarFieldPreset preset) {
 FarFieldSettings far_field_of_the_paper(const FfaoView& view, int directions) {
   FarFieldSettings s = far_field_for(view, directions, 2);
   s.profile = SlabProfile::kSlab;
+  s.receiver_slope = -1;
   s.near_step = NearStep::of(1);
   return s;
 }

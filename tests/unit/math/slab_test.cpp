@@ -130,8 +130,16 @@ double define(const math::Rho& rho, const SliceCase& c, int steps = 4000) {
     const bool visible = p.valid && angle < smallest;
     if (visible) {
       double ex = c.perspective ? p.x : 0, ey = (c.perspective ? p.y : 0) - c.camera;
-      if (c.chord && chord) ex = p.x - last_x, ey = p.y - last_y;
-      sum += p.share * quadrature(rho, c, p.x, p.y, ex, ey, angle, smallest, steps);
+      double x = p.x;
+      const double outwards = p.x - last_x, rise = p.y - last_y;
+      if (c.chord && chord && outwards > 0 && rise > outwards) {
+        // An edge halfway, with matter below it along the view ray.
+        x -= 0.5 * outwards;
+        ex = c.perspective ? x : 0;
+      } else if (c.chord && chord) {
+        ex = outwards, ey = rise;
+      }
+      sum += p.share * quadrature(rho, c, x, p.y, ex, ey, angle, smallest, steps);
       smallest += p.share * (angle - smallest);
     }
     chord = visible;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "obscura/volume.h"
+#include "support/volume/vdb.h"
+#include "support/volume/vdb_distance.h"
 #include "tests/reference/volume_loops.h"
 #include "volume/distance_kernel.h"
 #include "volume/distance_start.h"
@@ -159,6 +161,54 @@ BENCHMARK(distance)
     ->Args({128, 1})
     ->Args({256, 1})
     ->Args({256, 2})
+    ->Args({512, 1})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+// OpenVDB's fogToSdf on the same voxels, beside our eight sweeps with their start.
+void fog_to_sdf(benchmark::State& state) {
+  if (!support::has_openvdb()) return state.SkipWithError("this build has no OpenVDB");
+  const int n = static_cast<int>(state.range(0));
+  Gyroid g(n);
+  // Closed at the border, which counts as a surface to OpenVDB where matter reaches it.
+  for (int i = 0; i < n * n * n; ++i) {
+    const int x = i % n, y = i / n % n, z = i / n / n;
+    const int depth = std::min({x, y, z, n - 1 - x, n - 1 - y, n - 1 - z});
+    g.values[std::size_t(i)] = std::min(g.values[std::size_t(i)], float(depth) - 0.7f);
+  }
+  const int threads = static_cast<int>(state.range(1));
+  auto executor = make_executor(threads);
+  VolumeRun run;
+  run.executor = executor.get();
+  if (!sweep_distance(g.view(), {}, g.grid(), run).ok()) return state.SkipWithError("refused");
+  const std::vector<float> ours = g.distance;
+  std::vector<Seconds> own;
+  for (int i = 0; i < 5; ++i) {
+    own.push_back(seconds_of([&] { (void)!sweep_distance(g.view(), {}, g.grid(), run).ok(); }));
+  }
+  report(state, own, g.voxels(), 0);
+  double seconds = 0;
+  for (auto _ : state) {
+    if (!support::openvdb_distance(g.view(), 0, threads, g.grid(), &seconds).ok()) {
+      return state.SkipWithError("OpenVDB refused");
+    }
+    state.SetIterationTime(seconds);
+  }
+  double difference = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    difference += std::fabs(double{ours[i]} - g.distance[i]) / g.voxels();
+  }
+  if (!(difference < 0.3)) return state.SkipWithError("the distances differ");
+  const double ns = seconds * 1e9 / g.voxels();
+  state.counters["openvdb_ns/voxel"] = ns;
+  state.counters["openvdb_times"] = ns / state.counters["ns/voxel"];
+}
+BENCHMARK(fog_to_sdf)
+    ->Name("volume_openvdb_distance")
+    ->ArgNames({"side", "threads"})
+    ->Args({256, 1})
+    ->Args({256, 2})
+    ->Iterations(1)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
@@ -250,6 +300,8 @@ BENCHMARK(transport)
     ->Name("volume_transport")
     ->ArgNames({"side", "transport", "threads"})
     ->ArgsProduct({{256}, {0, 1, 2, 3}, {1, 2}})
+    ->Args({128, 2, 1})
+    ->Args({512, 2, 1})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 

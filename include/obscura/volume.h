@@ -125,7 +125,8 @@ struct VolumeRange {
   double mean = 0;
   std::int64_t finite = 0, not_finite = 0;
 };
-Status volume_range(const VolumeView& volume, VolumeRange* range);
+// Guarantees: the same bits for any number of threads.
+Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run = {});
 
 // Converts one row of values, x = 0 ... size[0] - 1, to floats.
 void volume_row(const VolumeView& volume, int y, int z, float* values);

@@ -49,10 +49,7 @@ bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& 
 }
 
 Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridView<float> distance,
-             const VolumeRun& run, DistanceReport* report) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+             Executor& executor, const VolumeRun& run, DistanceReport* report) {
   DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false);
   DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true);
 
@@ -88,15 +85,20 @@ Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings
                               distance.size[2], "; it must be the volume's, ", volume.size[0], "x",
                               volume.size[1], "x", volume.size[2]));
   }
+  std::unique_ptr<Executor> own;
+  if (!run.executor) own = make_executor();
+  Executor& executor = run.executor ? *run.executor : *own;
   VolumeRange range;
-  if (Status s = volume_range(volume, &range); !s.ok()) return s;
+  VolumeRun unseen;  // the range is quick and reports no progress
+  unseen.executor = &executor;
+  if (Status s = volume_range(volume, &range, unseen); !s.ok()) return s;
   if (!cuts(settings, range)) {
     return invalid_argument(text("isovalue is ", settings.isovalue,
                                  ", which does not cut the volume; its values go from ", range.min,
                                  " to ", range.max));
   }
   try {
-    return sweep(volume, settings, distance, run, report);
+    return sweep(volume, settings, distance, executor, run, report);
   } catch (const std::bad_alloc&) {
     return {StatusCode::kOutOfMemory, "out of memory in the distance sweep; use a smaller volume"};
   }

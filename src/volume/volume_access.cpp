@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/text.h"
@@ -76,33 +77,77 @@ void volume_row(const VolumeView& volume, int y, int z, float* values) {
   }
 }
 
-Status volume_range(const VolumeView& volume, VolumeRange* range) {
-  if (Status s = validate(volume); !s.ok()) return s;
-  VolumeRange r;
-  r.min = std::numeric_limits<float>::infinity();
-  r.max = -r.min;
+namespace {
+
+// What a plane adds to the range.
+struct PlaneRange {
+  float min = std::numeric_limits<float>::infinity(), max = -min;
   double sum = 0;
-  std::vector<float> row(static_cast<std::size_t>(volume.size[0]));
-  for (int z = 0; z < volume.size[2]; ++z) {
-    for (int y = 0; y < volume.size[1]; ++y) {
-      volume_row(volume, y, z, row.data());
-      double row_sum = 0;
-      for (float v : row) {
-        if (!std::isfinite(v)) {
-          ++r.not_finite;
-          continue;
-        }
-        ++r.finite;
-        row_sum += v;
-        r.min = std::min(r.min, v);
-        r.max = std::max(r.max, v);
-      }
-      sum += row_sum;
-    }
+  std::int64_t finite = 0;
+};
+
+// In lanes, so that it becomes vectors; the order of a sum is that of the lanes.
+void add_row(const float* row, int width, PlaneRange* range) {
+  constexpr int kLanes = 16;
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  float low[kLanes], high[kLanes];
+  double sum[kLanes] = {};
+  int finite[kLanes] = {};
+  std::fill_n(low, kLanes, range->min);
+  std::fill_n(high, kLanes, range->max);
+  auto add = [&](float v, int lane) {
+    const bool in = std::fabs(v) <= kLargest;
+    const float least = in ? v : low[lane], most = in ? v : high[lane];
+    low[lane] = least < low[lane] ? least : low[lane];
+    high[lane] = most > high[lane] ? most : high[lane];
+    sum[lane] += in ? v : 0.0f;
+    finite[lane] += in;
+  };
+  int x = 0;
+  for (; x + kLanes <= width; x += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) add(row[x + lane], lane);
   }
-  if (r.finite == 0) return invalid_input("volume has no finite voxel; give one that has");
-  r.mean = sum / static_cast<double>(r.finite);
-  *range = r;
+  for (; x < width; ++x) add(row[x], x % kLanes);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    range->min = std::min(range->min, low[lane]);
+    range->max = std::max(range->max, high[lane]);
+    range->sum += sum[lane];
+    range->finite += finite[lane];
+  }
+}
+
+}  // namespace
+
+Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run) {
+  if (Status s = validate(volume); !s.ok()) return s;
+  std::unique_ptr<Executor> own;
+  if (!run.executor) own = make_executor();
+  Executor& executor = run.executor ? *run.executor : *own;
+  std::vector<PlaneRange> planes(static_cast<std::size_t>(volume.size[2]));
+  std::vector<std::vector<float>> rows(static_cast<std::size_t>(executor.thread_count()));
+  for (auto& row : rows) row.resize(static_cast<std::size_t>(volume.size[0]));
+  executor.parallel_for(volume.size[2], [&](int z, int worker) {
+    float* row = rows[static_cast<std::size_t>(worker)].data();
+    for (int y = 0; y < volume.size[1]; ++y) {
+      volume_row(volume, y, z, row);
+      add_row(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
+    }
+  });
+  // Plane after plane, whatever the threads.
+  PlaneRange all;
+  for (const PlaneRange& plane : planes) {
+    all.min = std::min(all.min, plane.min);
+    all.max = std::max(all.max, plane.max);
+    all.sum += plane.sum;
+    all.finite += plane.finite;
+  }
+  if (all.finite == 0) return invalid_input("volume has no finite voxel; give one that has");
+  range->min = all.min;
+  range->max = all.max;
+  range->mean = all.sum / static_cast<double>(all.finite);
+  range->finite = all.finite;
+  range->not_finite =
+      std::int64_t{1} * volume.size[0] * volume.size[1] * volume.size[2] - all.finite;
   return {};
 }
 

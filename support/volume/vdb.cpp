@@ -1,4 +1,4 @@
-// The one file that includes OpenVDB, which takes long to compile.
+// This file and vdb_distance.cpp are all that includes OpenVDB, which takes long to compile.
 #include "support/volume/vdb.h"
 
 #include <fmt/format.h>

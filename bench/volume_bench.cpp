@@ -104,10 +104,9 @@ void sweep_eight(Gyroid& g, DistanceStage& first, DistanceStage& second, Executo
 double distance_loops(double* difference) {
   Gyroid g(kLoopSide);
   auto executor = make_executor(1);
-  std::int64_t solid, open;
   DistanceSettings settings;
   settings.solid = SolidSide::kBelow;
-  start_distance(g.view(), settings, g.grid(), *executor, &solid, &open);
+  start_distance(g.view(), settings, g.grid(), *executor);
   const int n = kLoopSide, p = n + 2;
   std::vector<float> loops(std::size_t(p) * p * p, 1e10f);
   auto at = [&](int x, int y, int z) {
@@ -148,8 +147,7 @@ void distance(benchmark::State& state) {
   settings.solid = SolidSide::kBelow;
   std::vector<Seconds> times;
   for (auto _ : state) {
-    std::int64_t solid, open;
-    start_distance(g.view(), settings, g.grid(), *executor, &solid, &open);
+      start_distance(g.view(), settings, g.grid(), *executor);
     times.push_back(seconds_of([&] { sweep_eight(g, first, second, *executor); }));
     state.SetIterationTime(times.back().wall);
   }

@@ -53,8 +53,7 @@ Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridVie
   DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false);
   DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true);
 
-  std::int64_t solid, open;
-  start_distance(volume, settings, distance, executor, &solid, &open);
+  start_distance(volume, settings, distance, executor);
   const int rounds = (settings.sweeps + 7) / 8;
   const int most = settings.converge ? kMaxSweeps / 8 : rounds;
   Progress progress(static_cast<std::int64_t>(rounds) * 2 * (volume.size[2] + 1), run.progress);

@@ -1,8 +1,8 @@
 #include "volume/distance_start.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "volume/distance_kernel.h"
@@ -10,10 +10,13 @@
 namespace obscura {
 namespace {
 
-constexpr int kSlab = 8;            // planes of a task
+constexpr int kSlab = 16;           // planes of a task
 constexpr float kMaxValue = 1e18f;  // its square is a float
 
-// The function whose zero is the surface, positive in the open, for one plane of voxels.
+bool is_open(float f) { return f > 0; }
+
+// The function whose zero is the surface, positive in the open, for one plane of voxels, and
+// whether it is positive.
 class OpenField {
  public:
   OpenField(const VolumeView& volume, const DistanceSettings& settings)
@@ -21,9 +24,9 @@ class OpenField {
         sign_(settings.solid == SolidSide::kAbove ? -1.0f : 1.0f),
         isovalue_(settings.isovalue) {}
 
-  void plane(int z, float* out) const {
+  void plane(int z, float* out, std::uint8_t* open) const {
     const int width = volume_.size[0];
-    for (int y = 0; y < volume_.size[1]; ++y, out += width) {
+    for (int y = 0; y < volume_.size[1]; ++y, out += width, open += width) {
       volume_row(volume_, y, z, out);
       for (int x = 0; x < width; ++x) {
         const float f = sign_ * (out[x] - isovalue_);
@@ -31,6 +34,7 @@ class OpenField {
         const float capped = f < kMaxValue ? f : kMaxValue;
         out[x] = capped > -kMaxValue ? capped : -kMaxValue;
       }
+      for (int x = 0; x < width; ++x) open[x] = is_open(out[x]);
     }
   }
 
@@ -38,8 +42,6 @@ class OpenField {
   const VolumeView& volume_;
   float sign_, isovalue_;
 };
-
-bool is_open(float f) { return f > 0; }
 
 // Distance of a voxel from the surface, from its value and those of its neighbours along one axis
 // after the other.
@@ -75,53 +77,76 @@ class Beside {
   double magnitude_, edge_ = 1e30, gradient2_ = 0;
 };
 
+// One plane of voxels with those before and after it.
+struct Planes {
+  explicit Planes(std::size_t voxels) {
+    for (int i = 0; i < 3; ++i) {
+      values[i].resize(voxels);
+      open[i].resize(voxels);
+    }
+  }
+  void advance() {
+    std::rotate(values, values + 1, values + 3);
+    std::rotate(open, open + 1, open + 3);
+  }
+  std::vector<float> values[3];
+  std::vector<std::uint8_t> open[3];
+};
+
+// Marks the voxels of a row that have one on the other side of the surface beside them, and says
+// whether there is any. A null row beside it is outside the grid.
+bool mark_near(const std::uint8_t* open, const std::uint8_t* const beside[4], int width,
+               std::uint8_t* near) {
+  std::fill_n(near, width, std::uint8_t{0});
+  auto mark = [&](const std::uint8_t* a, const std::uint8_t* b, std::uint8_t* to, int count) {
+    for (int x = 0; x < count; ++x) to[x] = static_cast<std::uint8_t>(to[x] | (a[x] ^ b[x]));
+  };
+  for (int i = 0; i < 4; ++i) {
+    if (beside[i]) mark(open, beside[i], near, width);
+  }
+  mark(open, open + 1, near, width - 1);
+  mark(open, open + 1, near + 1, width - 1);
+  unsigned any = 0;
+  for (int x = 0; x < width; ++x) any |= near[x];
+  return any != 0;
+}
+
 }  // namespace
 
 void start_distance(const VolumeView& volume, const DistanceSettings& settings,
-                    GridView<float> distance, Executor& executor, std::int64_t* solid,
-                    std::int64_t* open) {
+                    GridView<float> distance, Executor& executor) {
   const int nx = volume.size[0], ny = volume.size[1], nz = volume.size[2];
-  const std::ptrdiff_t row = nx, plane = row * ny;
+  const std::ptrdiff_t row = nx;
   const auto stride = distance.strides();
-  std::atomic<std::int64_t> solid_count{0};
+  const OpenField field(volume, settings);
   executor.parallel_for((nz + kSlab - 1) / kSlab, [&](int slab, int) {
-    const OpenField field(volume, settings);
     const int begin = slab * kSlab, end = std::min(nz, begin + kSlab);
-    std::vector<float> storage(static_cast<std::size_t>(3 * plane));
-    float* planes[3];  // z - 1, z, z + 1
-    for (int i = 0; i < 3; ++i) planes[i] = storage.data() + i * plane;
-    if (begin > 0) field.plane(begin - 1, planes[0]);
-    field.plane(begin, planes[1]);
-    std::int64_t count = 0;
-    std::vector<unsigned char> near(static_cast<std::size_t>(nx));
+    Planes planes(static_cast<std::size_t>(row * ny));
+    auto load = [&](int z, int place) {
+      if (z < 0 || z >= nz) return;
+      field.plane(z, planes.values[place].data(), planes.open[place].data());
+    };
+    load(begin - 1, 0);
+    load(begin, 1);
+    std::vector<std::uint8_t> near(static_cast<std::size_t>(nx));
     for (int z = begin; z < end; ++z) {
-      if (z + 1 < nz) field.plane(z + 1, planes[2]);
+      load(z + 1, 2);
+      const bool below = z > 0, above = z + 1 < nz;
       for (int y = 0; y < ny; ++y) {
-        const float* f = planes[1] + y * row;
+        const std::ptrdiff_t at = y * row;
+        const std::uint8_t* open = planes.open[1].data() + at;
+        const std::uint8_t* const beside[] = {y > 0 ? open - row : nullptr,
+                                              y + 1 < ny ? open + row : nullptr,
+                                              below ? planes.open[0].data() + at : nullptr,
+                                              above ? planes.open[2].data() + at : nullptr};
         float* out = distance.data + z * stride[2] + y * stride[1];
-        const float* beside[] = {y > 0 ? f - row : f, y + 1 < ny ? f + row : f,
-                                 z > 0 ? planes[0] + y * row : f,
-                                 z + 1 < nz ? planes[2] + y * row : f};
-        unsigned any = 0;
-        int inside = 0;
         for (int x = 0; x < nx; ++x) {
-          unsigned crossed = 0;
-          for (const float* b : beside) crossed |= is_open(b[x]) != is_open(f[x]);
-          near[x] = static_cast<unsigned char>(crossed);
-          any |= crossed;
-          inside += !is_open(f[x]);
+          out[x * stride[0]] = open[x] ? kUnknownDistance : -kUnknownDistance;
         }
-        for (int x = 0; x + 1 < nx; ++x) {
-          const unsigned crossed = is_open(f[x]) != is_open(f[x + 1]);
-          near[x] = static_cast<unsigned char>(near[x] | crossed);
-          near[x + 1] = static_cast<unsigned char>(near[x + 1] | crossed);
-          any |= crossed;
-        }
-        count += inside;
-        for (int x = 0; x < nx; ++x) {
-          out[x * stride[0]] = is_open(f[x]) ? kUnknownDistance : -kUnknownDistance;
-        }
-        if (!any) continue;
+        if (!mark_near(open, beside, nx, near.data())) continue;
+        const float* f = planes.values[1].data() + at;
+        const float* low = planes.values[0].data() + at;
+        const float* high = planes.values[2].data() + at;
         for (int x = 0; x < nx; ++x) {
           if (!near[x]) continue;
           Beside voxel(f[x]);
@@ -129,18 +154,14 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
                      volume.spacing[0]);
           voxel.axis(y > 0 ? f + x - row : nullptr, y + 1 < ny ? f + x + row : nullptr,
                      volume.spacing[1]);
-          voxel.axis(z > 0 ? planes[0] + y * row + x : nullptr,
-                     z + 1 < nz ? planes[2] + y * row + x : nullptr, volume.spacing[2]);
+          voxel.axis(below ? low + x : nullptr, above ? high + x : nullptr, volume.spacing[2]);
           const float d = settings.start == DistanceStart::kEdges ? voxel.edge() : voxel.gradient();
-          out[x * stride[0]] = is_open(f[x]) ? d : -d;
+          out[x * stride[0]] = open[x] ? d : -d;
         }
       }
-      std::rotate(planes, planes + 1, planes + 3);
+      planes.advance();
     }
-    solid_count += count;
   });
-  *solid = solid_count;
-  *open = static_cast<std::int64_t>(plane) * nz - solid_count;
 }
 
 }  // namespace obscura

@@ -6,10 +6,9 @@
 namespace obscura {
 
 // Writes the signed distances of the voxels beside the isosurface and +-kUnknownDistance elsewhere.
-// Counts the voxels of matter and the open ones. The settings are valid.
+// The settings are valid.
 void start_distance(const VolumeView& volume, const DistanceSettings& settings,
-                    GridView<float> distance, Executor& executor, std::int64_t* solid,
-                    std::int64_t* open);
+                    GridView<float> distance, Executor& executor);
 
 }  // namespace obscura
 

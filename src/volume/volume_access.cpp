@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "core/text.h"
+#include "volume/range_kernel.h"
 
 namespace obscura {
 namespace {
@@ -77,47 +77,6 @@ void volume_row(const VolumeView& volume, int y, int z, float* values) {
   }
 }
 
-namespace {
-
-// What a plane adds to the range.
-struct PlaneRange {
-  float min = std::numeric_limits<float>::infinity(), max = -min;
-  double sum = 0;
-  std::int64_t finite = 0;
-};
-
-// In lanes, so that it becomes vectors; the order of a sum is that of the lanes.
-void add_row(const float* row, int width, PlaneRange* range) {
-  constexpr int kLanes = 16;
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  float low[kLanes], high[kLanes];
-  double sum[kLanes] = {};
-  int finite[kLanes] = {};
-  std::fill_n(low, kLanes, range->min);
-  std::fill_n(high, kLanes, range->max);
-  auto add = [&](float v, int lane) {
-    const bool in = std::fabs(v) <= kLargest;
-    const float least = in ? v : low[lane], most = in ? v : high[lane];
-    low[lane] = least < low[lane] ? least : low[lane];
-    high[lane] = most > high[lane] ? most : high[lane];
-    sum[lane] += in ? v : 0.0f;
-    finite[lane] += in;
-  };
-  int x = 0;
-  for (; x + kLanes <= width; x += kLanes) {
-    for (int lane = 0; lane < kLanes; ++lane) add(row[x + lane], lane);
-  }
-  for (; x < width; ++x) add(row[x], x % kLanes);
-  for (int lane = 0; lane < kLanes; ++lane) {
-    range->min = std::min(range->min, low[lane]);
-    range->max = std::max(range->max, high[lane]);
-    range->sum += sum[lane];
-    range->finite += finite[lane];
-  }
-}
-
-}  // namespace
-
 Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run) {
   if (Status s = validate(volume); !s.ok()) return s;
   std::unique_ptr<Executor> own;
@@ -126,11 +85,19 @@ Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRu
   std::vector<PlaneRange> planes(static_cast<std::size_t>(volume.size[2]));
   std::vector<std::vector<float>> rows(static_cast<std::size_t>(executor.thread_count()));
   for (auto& row : rows) row.resize(static_cast<std::size_t>(volume.size[0]));
+  const auto stride = strides_of(volume);
+  const bool plain = volume.type == VoxelType::kF32 && stride[0] == 1 && volume.slope == 1 &&
+                     volume.intercept == 0;
   executor.parallel_for(volume.size[2], [&](int z, int worker) {
-    float* row = rows[static_cast<std::size_t>(worker)].data();
+    float* converted = rows[static_cast<std::size_t>(worker)].data();
     for (int y = 0; y < volume.size[1]; ++y) {
-      volume_row(volume, y, z, row);
-      add_row(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
+      const float* row = converted;
+      if (plain) {
+        row = static_cast<const float*>(volume.data) + y * stride[1] + z * stride[2];
+      } else {
+        volume_row(volume, y, z, converted);
+      }
+      add_row_to_range(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
     }
   });
   // Plane after plane, whatever the threads.

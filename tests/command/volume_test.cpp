@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "support/files/files.h"
 #include "support/volume/load_volume.h"
 #include "support/volume/vdb.h"
@@ -71,6 +73,33 @@ TEST_F(VolumeCommand, FieldsAreVolumes) {
     expect_success("volume volume:sphere?size=16 -q --fields v.vdb");
     ASSERT_TRUE(support::load_volume(path("v.vdb"), {}, &image).ok());
   }
+}
+
+TEST_F(VolumeCommand, OctantsAreNamed) {
+  expect_success("volume volume:sphere?size=16 -q --fields v.nrrd");
+  const std::string header = read_file(path("v.nrrd")).substr(0, 1000);
+  for (int s = 0; s < 8; ++s) {
+    const std::string name =
+        "field " + std::to_string(s) + ":=visibility_octant_" + std::to_string(s) + "\n";
+    EXPECT_NE(header.find(name), std::string::npos) << header;
+  }
+}
+
+// Half of the voxels are NaN, and one axis has one voxel: a picture all the same.
+TEST_F(VolumeCommand, HolesAndThinVolumes) {
+  std::vector<float> values(12 * 12);
+  for (int i = 0; i < 144; ++i)
+    values[std::size_t(i)] = i % 12 < 6 ? NAN : i / 12 < 5 ? 1.0f : 0.0f;
+  write("a.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
+  expect_success(
+      "volume a.raw --raw-size 12x12x1 --raw-type f32 --iso 0.5 --size 24x24 -q -o a.pfm");
+  support::Image image;
+  ASSERT_TRUE(support::read_image(path("a.pfm"), &image).ok());
+  for (float v : image.channels[0].values) EXPECT_TRUE(v >= 0 && v <= 1);
+  std::fill(values.begin(), values.end(), NAN);
+  write("b.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
+  expect_failure("volume b.raw --raw-size 12x12x1 --raw-type f32 --iso 0.5 -o b.png", 3,
+                 "no finite voxel");
 }
 
 TEST_F(VolumeCommand, BadUsageAndInput) {

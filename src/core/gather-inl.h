@@ -84,6 +84,45 @@ HWY_INLINE void GatherPairs(D d, const float* HWY_RESTRICT base,
 #endif
 }
 
+// base[4 index[lane] + k] as lane `lane` of out[k], k < 4: each lane's four floats, which lie in 16
+// aligned bytes, by one load.
+template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE void GatherQuads(D d, const float* HWY_RESTRICT base,
+                            const std::int32_t* HWY_RESTRICT index, V out[4]) {
+  namespace hn = hwy::HWY_NAMESPACE;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  auto load = [base, index](int lane) HWY_ATTR {
+    return _mm_load_ps(base + 4 * static_cast<std::ptrdiff_t>(index[lane]));
+  };
+  // The lanes k, k + 4, ..., and then a transposition within each 16 bytes.
+  auto every_fourth = [load](int k) HWY_ATTR {
+    const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(load(k)), load(k + 4), 1);
+#if HWY_TARGET == HWY_AVX2
+    return V{lo};
+#else
+    const __m512 first = _mm512_insertf32x4(_mm512_castps256_ps512(lo), load(k + 8), 2);
+    return V{_mm512_insertf32x4(first, load(k + 12), 3)};
+#endif
+  };
+  const V q0 = every_fourth(0), q1 = every_fourth(1), q2 = every_fourth(2), q3 = every_fourth(3);
+  const hn::RepartitionToWide<D> dw;
+  auto wide = [dw](V v) HWY_ATTR { return hn::BitCast(dw, v); };
+  const auto a = wide(hn::InterleaveLower(d, q0, q1)), b = wide(hn::InterleaveLower(d, q2, q3));
+  const auto u = wide(hn::InterleaveUpper(d, q0, q1)), v = wide(hn::InterleaveUpper(d, q2, q3));
+  out[0] = hn::BitCast(d, hn::InterleaveLower(dw, a, b));
+  out[1] = hn::BitCast(d, hn::InterleaveUpper(dw, a, b));
+  out[2] = hn::BitCast(d, hn::InterleaveLower(dw, u, v));
+  out[3] = hn::BitCast(d, hn::InterleaveUpper(dw, u, v));
+#else
+  HWY_ALIGN float lanes[4][HWY_MAX_BYTES / sizeof(float)];
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    const float* quad = base + 4 * static_cast<std::ptrdiff_t>(index[i]);
+    for (int k = 0; k < 4; ++k) lanes[k][i] = quad[k];
+  }
+  for (int k = 0; k < 4; ++k) out[k] = hn::Load(d, lanes[k]);
+#endif
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
 HWY_AFTER_NAMESPACE();

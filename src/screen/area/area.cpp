@@ -25,6 +25,9 @@ class AreaMethod final : public Method {
     }
     set_pattern(disk_pattern(settings.samples, settings.center));
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
+    for (int l = 0; l <= kLevelTable; ++l) {
+      frame_.width[l] = static_cast<float>(MomentPyramid::kernel_width(l));
+    }
     pyramid_.resize(width, height);
   }
 
@@ -40,7 +43,9 @@ class AreaMethod final : public Method {
     f.texels = pyramid_.texels();
     f.levels = pyramid_.levels();
     f.stride = pyramid_.stride();
-    f.area = pyramid_.area();
+    for (int l = 0; l < f.levels; ++l) {
+      f.start[l] = static_cast<std::int32_t>(pyramid_.start(l));
+    }
     return run_rows(g, outputs.visibility, context, [&](int row, int begin, int end, float* out) {
       area_row(f, row, begin, end, out);
     });

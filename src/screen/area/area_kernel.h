@@ -8,6 +8,9 @@ namespace obscura {
 
 inline constexpr int kMaxAreaSamples = 16;
 
+// Entries of the tables by level: as many as fill a vector.
+inline constexpr int kLevelTable = 16;
+
 // One frame of area sampling as the kernel sees it.
 struct AreaFrame {
   view::TapFrame view;
@@ -16,8 +19,10 @@ struct AreaFrame {
 
   const MomentPyramid::Texel* texels = nullptr;
   int levels = 0;
-  int stride = 0;         // of level 0
-  std::int64_t area = 0;  // texels of level 0
+  int stride = 0;  // of level 0
+  // Per level: where its texels start, and its kernel's deviation in pixels.
+  std::int32_t start[kLevelTable] = {};
+  float width[kLevelTable + 1] = {};
 
   // The pattern on the unit disk, y down; lengths in radii.
   int samples = 0;

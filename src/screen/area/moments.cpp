@@ -1,8 +1,8 @@
 #include "screen/area/moments.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "screen/area/moments_kernel.h"
 
@@ -45,9 +45,10 @@ void MomentPyramid::resize(int width, int height) {
   levels_ = level_count(width, height);
   stride_ = padded(width, levels_);
   area_ = static_cast<std::int64_t>(stride_) * padded(height, levels_);
-  texels_.resize(levels_ < kFullLevels ? levels_ * area_ : 4 * area_);
+  texels_.resize(levels_ < kFullLevels ? levels_ * area_ : (kFullLevels + 1) * area_);
   now_.resize(width, height);
   next_.resize(width, height);
+  columns_.clear();
   background_.resize(width, 1);
   for (AlignedImage<float>* plane :
        {&background_.share, &background_.mean, &background_.variance}) {
@@ -56,17 +57,13 @@ void MomentPyramid::resize(int width, int height) {
 }
 
 void MomentPyramid::build(const view::Geometry& geometry, Executor& executor) {
-  while (static_cast<int>(scratch_.size()) < executor.thread_count()) {
-    Scratch& s = scratch_.emplace_back();
-    s.vertical.resize(width_ + 2 * kMargin, 1);
-    s.wide.resize(width_, 1);
+  while (static_cast<int>(columns_.size()) < executor.thread_count()) {
+    columns_.emplace_back().resize(width_ + 2 * kMargin, 1);
   }
   start_level(geometry, executor);
-  pack(0, executor);
-  for (int level = 1; level < levels_; ++level) {
-    next_level(level, executor);
-    std::swap(now_, next_);
-    pack(level, executor);
+  for (int level = 0; level < levels_; ++level) {
+    if (level > 0) advance_to(level, executor);
+    pack_level(level, executor);
   }
 }
 
@@ -82,23 +79,40 @@ void MomentPyramid::start_level(const view::Geometry& geometry, Executor& execut
   });
 }
 
-void MomentPyramid::next_level(int level, Executor& executor) {
-  const int width = level_size(width_, level - 1), height = level_size(height_, level - 1);
-  const int step = level < kFullLevels ? 1 << (level - 1) : 4;  // between taps, in texels
-  const int keep = shift(level) - shift(level - 1) + 1;         // every which texel
-  const int new_width = level_size(width_, level), new_height = level_size(height_, level);
-  executor.parallel_for((new_height + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int worker) {
-    Scratch& s = scratch_[worker];
-    Planes& column = s.vertical;
-    const int end = std::min(new_height, (task + 1) * kRowsPerTask);
+void MomentPyramid::advance_to(int level, Executor& executor) {
+  if (shift(level) == shift(level - 1)) return std::swap(now_, next_);
+  const int width = level_size(width_, level), height = level_size(height_, level);
+  executor.parallel_for(height, [&](int y, int) {
+    auto halve = [&](const AlignedImage<float>& from, AlignedImage<float>& to) {
+      const float* in = from.row(2 * y);
+      float* out = to.row(y);
+      for (int x = 0; x < width; ++x) out[x] = in[2 * x];
+    };
+    halve(next_.share, now_.share);
+    halve(next_.mean, now_.mean);
+    halve(next_.variance, now_.variance);
+  });
+}
+
+void MomentPyramid::pack_level(int level, Executor& executor) {
+  const int width = level_size(width_, level), height = level_size(height_, level);
+  const int step = 1 << (level - shift(level));  // between taps, in texels
+  const bool last = level + 1 == levels_;
+  executor.parallel_for((height + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int worker) {
+    Planes& column = columns_[worker];
+    const int end = std::min(height, (task + 1) * kRowsPerTask);
     for (int y = task * kRowsPerTask; y < end; ++y) {
+      const MomentRow now = now_.row(y);
+      Texel* out =
+          texels_.data() + start(level) + static_cast<std::int64_t>(y) * (stride_ >> shift(level));
+      if (last) {
+        pack_moments(now, now, width, out);
+        continue;
+      }
       MomentRow rows[5];
       for (int k = 0; k < 5; ++k) {
-        const int from = y * keep + (k - 2) * step;
-        const bool inside = from >= 0 && from < height;
-        const Planes& p = inside ? now_ : background_;
-        const int row = inside ? from : 0;
-        rows[k] = {p.share.row(row), p.mean.row(row), p.variance.row(row)};
+        const int from = y + (k - 2) * step;
+        rows[k] = from >= 0 && from < height ? now_.row(from) : background_.row(0);
       }
       merge_moments(rows, width, column.share.data() + kMargin, column.mean.data() + kMargin,
                     column.variance.data() + kMargin);
@@ -111,32 +125,8 @@ void MomentPyramid::next_level(int level, Executor& executor) {
         rows[k] = {column.share.data() + offset, column.mean.data() + offset,
                    column.variance.data() + offset};
       }
-      if (keep == 1) {
-        merge_moments(rows, width, next_.share.row(y), next_.mean.row(y), next_.variance.row(y));
-        continue;
-      }
-      merge_moments(rows, width, s.wide.share.data(), s.wide.mean.data(), s.wide.variance.data());
-      for (int x = 0; x < new_width; ++x) {
-        next_.share(x, y) = s.wide.share(x * keep, 0);
-        next_.mean(x, y) = s.wide.mean(x * keep, 0);
-        next_.variance(x, y) = s.wide.variance(x * keep, 0);
-      }
-    }
-  });
-}
-
-void MomentPyramid::pack(int level, Executor& executor) {
-  const int width = level_size(width_, level), height = level_size(height_, level);
-  Texel* first = texels_.data() + start(level);
-  const int stride = stride_ >> shift(level);
-  executor.parallel_for(height, [&](int y, int) {
-    Texel* out = first + static_cast<std::int64_t>(y) * stride;
-    const float *share = now_.share.row(y), *mean = now_.mean.row(y);
-    const float* variance = now_.variance.row(y);
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t deviation = std::bit_cast<std::uint32_t>(std::sqrt(variance[x]));
-      const auto part = static_cast<std::uint32_t>(share[x] * 255 + 0.5f);
-      out[x] = {mean[x], (deviation & ~255u) | part};
+      merge_moments(rows, width, next_.share.row(y), next_.mean.row(y), next_.variance.row(y));
+      pack_moments(now, next_.row(y), width, out);
     }
   });
 }

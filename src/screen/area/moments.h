@@ -1,11 +1,13 @@
 #ifndef OBSCURA_SRC_SCREEN_AREA_MOMENTS_H_
 #define OBSCURA_SRC_SCREEN_AREA_MOMENTS_H_
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/aligned_image.h"
 #include "obscura/executor.h"
+#include "screen/area/moments_kernel.h"
 #include "view/geometry.h"
 
 namespace obscura {
@@ -16,24 +18,23 @@ namespace obscura {
 //
 // Level l's kernel has a deviation of sqrt((4^l - 1) / 3) pixels in x and in y: level 0 is the
 // image itself, each next level is the one before under the binomial (1 4 6 4 1)/16 with its taps
-// spread to 2^(l-1) pixels. Levels from 3 on keep every 2^(l-2)-th texel only, still four to the
+// spread to 2^(l-1) pixels. Levels from 2 on keep every 2^(l-1)-th texel only, still two to the
 // kernel's width, so that the nearest texel stands for an interpolated one: a processor has no
-// texture unit, and the paper's trilinear look-up would cost eight loads.
+// texture unit, and the paper's trilinear look-up would cost eight loads. Each texel holds the next
+// level's moments at its place as well, so that interpolation between levels needs one load of 16
+// bytes.
 //
 // Depths are averaged as means and deviations, by the law of total variance, which gives what
 // E[z^2] - E[z]^2 would in exact arithmetic but does not cancel. Only surfaces are averaged:
 // background has weight 0, and what it covers is kept as a share, so that it never bleeds into the
-// moments.
+// moments. Where level l sees background only, the next level's mean and deviation stand in, so
+// that they can be interpolated; the share says that they do not count.
 class MomentPyramid {
  public:
   static constexpr int kMaxLevels = 11;
-  static constexpr int kFullLevels = 3;  // that keep every texel
+  static constexpr int kFullLevels = 2;  // that keep every texel
 
-  struct Texel {
-    float mean = 0;
-    // A float's bits: the deviation, its lowest 8 bits replaced by the share of surface times 255.
-    std::uint32_t deviation_and_share = 0;
-  };
+  using Texel = MomentTexel;
 
   // For depth images of this size. Whether `resize` would take it: at most 2^28 padded pixels.
   static bool fits(int width, int height);
@@ -42,39 +43,38 @@ class MomentPyramid {
   void build(const view::Geometry& geometry, Executor& executor);
 
   int levels() const { return levels_; }
-  // Padded width of level 0 as a power of two's multiple; level l has stride() >> max(0, l - 2).
+  // Padded width of level 0 as a power of two's multiple; level l has stride() >> shift(l).
   int stride() const { return stride_; }
-  // Texels of a full level. Level l starts at l * area() for l < 3, at 4 area() - (area() >> (l-3))
-  // from there on.
-  std::int64_t area() const { return area_; }
   const Texel* texels() const { return texels_.data(); }
 
+  // The deviation of level l's kernel, in pixels.
+  static double kernel_width(int level) { return std::sqrt((std::exp2(2 * level) - 1) / 3); }
+  // Level l keeps every 2^shift-th texel.
   static int shift(int level) { return level < kFullLevels ? 0 : level - kFullLevels + 1; }
+  // Where level l starts.
   std::int64_t start(int level) const {
-    return level < kFullLevels ? level * area_ : 4 * area_ - (area_ >> (level - kFullLevels));
+    return level < kFullLevels ? level * area_
+                               : (kFullLevels + 1) * area_ - (area_ >> (level - kFullLevels));
   }
 
  private:
-  // A level's planes while the next one is made.
   struct Planes {
     AlignedImage<float> share, mean, variance;
     void resize(int width, int height);
-  };
-  // One worker's row between the vertical and the horizontal pass, and before every other texel is
-  // dropped.
-  struct Scratch {
-    Planes vertical, wide;
+    MomentRow row(int y) const { return {share.row(y), mean.row(y), variance.row(y)}; }
   };
   void start_level(const view::Geometry& geometry, Executor& executor);
-  void next_level(int level, Executor& executor);
-  void pack(int level, Executor& executor);
+  // Makes level + 1 of all texels of `level` and packs both.
+  void pack_level(int level, Executor& executor);
+  // Goes on from level - 1, whose texels next_ has, to `level`.
+  void advance_to(int level, Executor& executor);
 
   int width_ = 0, height_ = 0, levels_ = 0, stride_ = 0;
   std::int64_t area_ = 0;
   std::vector<Texel> texels_;
-  Planes now_, next_;
-  Planes background_;  // one row of share 0
-  std::vector<Scratch> scratch_;
+  Planes now_, next_;            // a level, and the next one at the same texels
+  Planes background_;            // one row of share 0
+  std::vector<Planes> columns_;  // per worker a row between the vertical and the horizontal pass
 };
 
 }  // namespace obscura

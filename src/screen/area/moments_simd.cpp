@@ -1,5 +1,7 @@
 #include "screen/area/moments_kernel.h"
 
+#include <cstring>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "screen/area/moments_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -44,6 +46,35 @@ void MergeMoments(const MomentRow rows[5], int width, float* HWY_RESTRICT share,
   }
 }
 
+void PackMoments(const MomentRow& now, const MomentRow& next, int width,
+                 MomentTexel* HWY_RESTRICT out) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  using V = hn::Vec<decltype(d)>;
+  const V zero = hn::Zero(d);
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < width; x += lanes) {
+    const V share0 = hn::LoadU(d, now.share + x), share1 = hn::LoadU(d, next.share + x);
+    const V mean1 = hn::LoadU(d, next.mean + x), variance1 = hn::LoadU(d, next.variance + x);
+    const auto any = hn::Gt(share0, zero);
+    const V mean0 = hn::IfThenElse(any, hn::LoadU(d, now.mean + x), mean1);
+    const V variance0 = hn::IfThenElse(any, hn::LoadU(d, now.variance + x), variance1);
+    auto bits = [&](V variance, V share) HWY_ATTR {
+      const auto part = hn::NearestInt(hn::Mul(share, hn::Set(d, 255.0f)));
+      const auto deviation = hn::BitCast(di, hn::Sqrt(variance));
+      return hn::BitCast(d, hn::Or(hn::AndNot(hn::Set(di, 255), deviation), part));
+    };
+    const V bits0 = bits(variance0, share0), bits1 = bits(variance1, share1);
+    if (width - x >= lanes) {
+      hn::StoreInterleaved4(mean0, mean1, bits0, bits1, d, reinterpret_cast<float*>(out + x));
+      continue;
+    }
+    HWY_ALIGN float last[4 * HWY_MAX_BYTES / sizeof(float)];
+    hn::StoreInterleaved4(mean0, mean1, bits0, bits1, d, last);
+    std::memcpy(out + x, last, (width - x) * sizeof(MomentTexel));
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
 HWY_AFTER_NAMESPACE();
@@ -52,9 +83,13 @@ HWY_AFTER_NAMESPACE();
 namespace obscura {
 
 HWY_EXPORT(MergeMoments);
+HWY_EXPORT(PackMoments);
 
 void merge_moments(const MomentRow rows[5], int width, float* share, float* mean, float* variance) {
   HWY_DYNAMIC_DISPATCH(MergeMoments)(rows, width, share, mean, variance);
+}
+void pack_moments(const MomentRow& now, const MomentRow& next, int width, MomentTexel* out) {
+  HWY_DYNAMIC_DISPATCH(PackMoments)(now, next, width, out);
 }
 
 }  // namespace obscura

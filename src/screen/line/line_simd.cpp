@@ -5,33 +5,17 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "core/gather-inl.h"
-#include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
-#include "math/sphere_line-inl.h"
-#include "view/taps-inl.h"
+#include "screen/volumetric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura::line {
 namespace HWY_NAMESPACE {
 
-using namespace obscura::HWY_NAMESPACE::taps;
+using namespace obscura::HWY_NAMESPACE::volumetric;
 using obscura::HWY_NAMESPACE::GatherLanes;
-using obscura::HWY_NAMESPACE::QuadraticLine;
 
 constexpr float kMaxThickness = 1e30f;  // in the lines' unit
-
-// Integral of rho along a sample's line from the sphere's middle to depth offset z, |z| <= zs.
-struct ConstantRho {
-  static constexpr bool kUnit = false;  // lengths in world units
-  HWY_INLINE ConstantRho(const LineFrame&, int) {}
-  HWY_INLINE V operator()(V z) const { return z; }
-};
-struct QuadraticRho {
-  static constexpr bool kUnit = true;  // lengths in radii
-  HWY_INLINE QuadraticRho(const LineFrame& f, int i) : lateral(hn::Set(D(), f.lateral[i])) {}
-  HWY_INLINE V operator()(V z) const { return QuadraticLine(D(), z, lateral); }
-  V lateral;
-};
 
 template <bool kNormals, bool kThickness>
 struct Block {
@@ -50,7 +34,7 @@ HWY_INLINE void FindTaps(const LineFrame& f, Receivers r, Vec3 n, Vec3 noise, in
                          Block<kNormals, kThickness>* block) {
   const D d;
   const V zero = hn::Zero(d), round = hn::Set(d, kRound);
-  const V per_unit = hn::Set(d, Rho::kUnit ? f.per_unit : 1.0f);
+  const V per_unit = hn::Set(d, Rho::kQuadratic ? f.per_unit : 1.0f);
   const V plane_scale = hn::Mul(r.distance, per_unit);
   // The sphere's centre: in pixels from the receiver, and how much nearer, in the lines' unit.
   V center_x = zero, center_y = zero, nearer = zero, center_z = r.z;
@@ -122,7 +106,7 @@ HWY_INLINE V SumTaps(const LineFrame& f, int v, const Block<kNormals, kThickness
     const V tap = GatherLanes(d, base, block.index[v][i]);
     const V zu = kNormals ? hn::Load(d, block.plane[kNormals ? v : 0][i]) : zs;
     V offset = hn::Sub(tap, center);
-    if (Rho::kUnit) offset = hn::Mul(offset, per_unit);
+    if (Rho::kQuadratic) offset = hn::Mul(offset, per_unit);
     // L = max(min(zs, d, zp) + zs, 0), section 4.1; the half from -zs to 0 is in `half`, or,
     // without normals, in the 0.5 above.
     V line = rho(hn::Max(hn::Min(offset, zu), minus_zs));
@@ -148,41 +132,19 @@ HWY_INLINE V SumTaps(const LineFrame& f, int v, const Block<kNormals, kThickness
 }
 
 template <bool kNormals, bool kRotate, bool kThickness, class Rho>
-void Pixels(const LineFrame& f, int row, int begin, int end, float* HWY_RESTRICT out) {
-  const RowLoader loader(f.view, row, end);
-  const V zero = hn::Zero(D());
-  Block<kNormals, kThickness> block;
-  auto find = [&](int i, int v) HWY_ATTR {
-    Vec3 n = {zero, zero, zero}, noise = n;
-    if constexpr (kNormals) n = loader.Normal(i);
-    if constexpr (kRotate) noise = loader.Noise<false>(i);
-    const Receivers receivers(f.view, f.view.left + i, loader.y, loader.Depth(i));
-    FindTaps<kRotate, Rho>(f, receivers, n, noise, v, &block);
-  };
-  auto sum = [&](int i, int v) HWY_ATTR {
-    loader.Store(SumTaps<Rho>(f, v, block), loader.Depth(i), i, out + (i - begin));
-  };
-  ForBlocks(begin, end, find, sum);
-}
+struct Kernel {
+  HWY_INLINE explicit Kernel(const LineFrame& frame) : f(frame) {}
+  HWY_INLINE void Find(const Receivers& r, const Vec3& n, const Vec3& noise, int v) {
+    FindTaps<kRotate, Rho>(f, r, n, noise, v, &block);
+  }
+  HWY_INLINE V Sum(V, int v) const { return SumTaps<Rho>(f, v, block); }
 
-template <bool kNormals, bool kRotate>
-void PixelsOf(const LineFrame& f, int row, int begin, int end, float* out) {
-  auto run = [&]<bool kThickness>() {
-    f.quadratic ? Pixels<kNormals, kRotate, kThickness, QuadraticRho>(f, row, begin, end, out)
-                : Pixels<kNormals, kRotate, kThickness, ConstantRho>(f, row, begin, end, out);
-  };
-  f.thickness > 0 ? run.template operator()<true>() : run.template operator()<false>();
-}
+  const LineFrame& f;
+  Block<kNormals, kThickness> block;
+};
 
 void LineRow(const LineFrame& f, int row, int begin, int end, float* out) {
-  const bool rotate = f.view.noise_x != nullptr;
-  if (f.view.normal_x) {
-    rotate ? PixelsOf<true, true>(f, row, begin, end, out)
-           : PixelsOf<true, false>(f, row, begin, end, out);
-  } else {
-    rotate ? PixelsOf<false, true>(f, row, begin, end, out)
-           : PixelsOf<false, false>(f, row, begin, end, out);
-  }
+  Row<Kernel>(f, row, begin, end, out);
 }
 
 }  // namespace HWY_NAMESPACE

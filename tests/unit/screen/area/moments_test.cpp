@@ -28,11 +28,12 @@ struct Moments {
   double mean, deviation, share;
 };
 
-Moments texel(const MomentPyramid& p, int level, int x, int y) {
+// With `next`, of the level above at the same place.
+Moments texel(const MomentPyramid& p, int level, int x, int y, bool next = false) {
   const int stride = p.stride() >> MomentPyramid::shift(level);
   const auto& t = p.texels()[p.start(level) + static_cast<std::int64_t>(y) * stride + x];
-  return {t.mean, std::bit_cast<float>(t.deviation_and_share & ~255u),
-          (t.deviation_and_share & 255) / 255.0};
+  const std::uint32_t bits = t.deviation_and_share[next];
+  return {t.mean[next], std::bit_cast<float>(bits & ~255u), (bits & 255) / 255.0};
 }
 
 MomentPyramid pyramid_of(const view::Geometry& g, int threads = 1) {
@@ -74,16 +75,16 @@ TEST(Moments, BackgroundDoesNotBleed) {
       }
     }
   }
-  EXPECT_NEAR(texel(p, 2, 100, 50).share, 0.5, 0.1);
-  EXPECT_NEAR(texel(p, 2, 60, 50).share, 1, 1e-6);
-  EXPECT_NEAR(texel(p, 2, 140, 50).share, 0, 1e-6);
+  EXPECT_NEAR(texel(p, 2, 50, 25).share, 0.5, 0.1);
+  EXPECT_NEAR(texel(p, 2, 30, 25).share, 1, 1e-6);
+  EXPECT_NEAR(texel(p, 2, 70, 25).share, 0, 1e-6);
 }
 
 // Depths that differ by a millionth: E[z^2] - E[z]^2 in floats would see nothing or noise.
 TEST(Moments, SmallDeviationsAreExact) {
   const view::Geometry g =
       geometry_of(64, 64, [](int x, int y) { return (x + y) % 2 ? 1000.0f : 1000.25f; });
-  const Moments m = texel(pyramid_of(g), 2, 30, 30);
+  const Moments m = texel(pyramid_of(g), 2, 15, 15);
   EXPECT_NEAR(m.mean, 1000.125, 1e-3);
   EXPECT_NEAR(m.deviation, 0.125, 1e-4);
 }
@@ -110,6 +111,36 @@ TEST(Moments, ThreadsAndTargetsAgree) {
     EXPECT_NEAR(texel(p, 4, 10, 5).deviation, texel(one, 4, 10, 5).deviation, 1e-4);
   }
   hwy::SetSupportedTargetsForTest(0);
+}
+
+// Every texel knows the next level at its own place; where a level keeps every second of the one
+// before, both say the same.
+TEST(Moments, LevelsAreHeldTwice) {
+  const view::Geometry g = geometry_of(131, 77, [](int x, int y) {
+    return x < 40 ? kInf : 5 + std::sin(0.3f * x) * std::cos(0.2f * y);
+  });
+  const MomentPyramid p = pyramid_of(g);
+  for (int level = 0; level + 1 < p.levels(); ++level) {
+    const int every = 1 << (MomentPyramid::shift(level + 1) - MomentPyramid::shift(level));
+    const int shift = MomentPyramid::shift(level + 1);
+    for (int y = 0; y <= 76 >> shift; ++y) {
+      for (int x = 0; x <= 130 >> shift; ++x) {
+        const Moments fine = texel(p, level, every * x, every * y);
+        const Moments above = texel(p, level, every * x, every * y, true);
+        const Moments next = texel(p, level + 1, x, y);
+        EXPECT_EQ(above.share, next.share);
+        if (next.share > 0) {
+          EXPECT_EQ(above.mean, next.mean);
+          EXPECT_EQ(above.deviation, next.deviation);
+        }
+        // What sees background only borrows.
+        if (level == 0 && fine.share == 0) {
+          EXPECT_EQ(fine.mean, above.mean);
+          EXPECT_EQ(fine.deviation, above.deviation);
+        }
+      }
+    }
+  }
 }
 
 TEST(Moments, LargestSize) {

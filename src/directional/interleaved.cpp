@@ -74,7 +74,11 @@ void InterleavedSums::blur_rows(const view::Geometry& g, const BlurRow& shared, 
   const AlignedImage<float>* normals[] = {&g.normal_x, &g.normal_y, &g.normal_z};
   for (int k = 0; k < 3; ++k) {
     float* to = normals_[k].row(y) + kMargin;
-    std::copy_n(normals[k]->row(row_of) + g.guard_band.left, width, to);
+    if (g.has_normals) {
+      std::copy_n(normals[k]->row(row_of) + g.guard_band.left, width, to);
+    } else {
+      std::fill_n(to, width, k == 2 ? 1.0f : 0.0f);  // all alike
+    }
     row.normal[k] = to;
   }
   for (int c = 0; c < shared.channels; ++c) {
@@ -121,7 +125,12 @@ void InterleavedSums::write(const view::Geometry& g, const Resolve& how, const O
   alignas(64) float block[8][kBlock];
   const bool cosine = how.sums == Sums::kCosine;
   const std::ptrdiff_t at = (g.guard_band.top + y) * g.depth.stride() + g.guard_band.left + x;
-  const float* normal[3] = {g.normal_x.data() + at, g.normal_y.data() + at, g.normal_z.data() + at};
+  const float* normal[3] = {};
+  if (how.directions) {
+    normal[0] = g.normal_x.data() + at;
+    normal[1] = g.normal_y.data() + at;
+    normal[2] = g.normal_z.data() + at;
+  }
   const VectorView<float>& integral = cosine ? o.cosine_integral : o.uniform_integral;
   const bool direction = how.directions && !cosine && !o.bent_normal.empty();
   const bool angle = how.directions && !cosine && !o.cone_angle.empty();

@@ -14,6 +14,7 @@
 #include "screen/method.h"
 #include "screen/mipmap/mipmap.h"
 #include "screen/point/point.h"
+#include "screen/point/screen_pattern.h"
 #include "screen/reference/reference.h"
 
 namespace obscura {
@@ -45,7 +46,15 @@ Status make_method(const AreaSettings& s, int w, int h, std::unique_ptr<Method>*
   return make_volumetric(s, make, w, h, m);
 }
 Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  return make_volumetric(s, make_point, w, h, m);
+  if (s.pattern == PointPattern::kBall) return make_volumetric(s, make_point, w, h, m);
+  // The screen pattern blurs by itself: directions go the same way as visibility.
+  auto make = [&](PointSettings settings, std::unique_ptr<Method>* method) {
+    settings.blur = s.blur;
+    return make_screen_point(settings, w, h, method);
+  };
+  PointSettings without_blur = s;
+  without_blur.blur = false;
+  return make_volumetric(without_blur, make, w, h, m);
 }
 
 Status make_method(const MipmapSettings& s, int, int, std::unique_ptr<Method>* m) {

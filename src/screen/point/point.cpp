@@ -1,9 +1,6 @@
 #include "screen/point/point.h"
 
-#include <vector>
-
 #include "core/reflection_noise.h"
-#include "core/text.h"
 #include "core/volumetric.h"
 #include "screen/point/point_kernel.h"
 #include "screen/rows.h"
@@ -13,17 +10,14 @@ namespace {
 
 class PointMethod final : public Method {
  public:
-  PointMethod(const PointSettings& settings, std::span<const BallSample> pattern)
-      : screen_(settings.pattern == PointPattern::kScreen) {
+  PointMethod(const PointSettings& settings, std::span<const BallSample> pattern) {
     frame_.view.radius = view::tap_radius(settings.falloff.radius);
-    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
     if (settings.occluder.kind == OccluderKind::kThickness) {
       frame_.thickness = settings.occluder.thickness;
     }
-    // The screen pattern applies rho itself.
-    const bool quadratic_weights = frame_.quadratic && !screen_;
+    const bool quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
     auto weight = [&](const BallSample& s) {
-      return quadratic_weights ? s.weight_quadratic : s.weight_constant;
+      return quadratic ? s.weight_quadratic : s.weight_constant;
     };
     double sum = 0;
     for (const BallSample& s : pattern) sum += weight(s);
@@ -34,7 +28,7 @@ class PointMethod final : public Method {
       frame_.z[i] = pattern[i].z;
       frame_.weight[i] = static_cast<float>(weight(pattern[i]) / sum);
     }
-    if (settings.rotate) noise_ = ReflectionNoise(settings.seed, !screen_);
+    if (settings.rotate) noise_ = ReflectionNoise(settings.seed, true);
   }
 
   view::Needs needs() const override { return {.normals = true, .works_without_normals = true}; }
@@ -46,14 +40,12 @@ class PointMethod final : public Method {
     f.view.noise_x = noise_.x();
     f.view.noise_y = noise_.y();
     f.view.noise_z = noise_.z();
-    const auto kernel = screen_ ? point_screen_row : point_ball_row;
     return run_rows(g, outputs.visibility, context, [&](int row, int begin, int end, float* out) {
-      kernel(f, row, begin, end, out);
+      point_ball_row(f, row, begin, end, out);
     });
   }
 
  private:
-  const bool screen_;
   PointFrame frame_;
   ReflectionNoise noise_;
 };
@@ -62,27 +54,12 @@ class PointMethod final : public Method {
 
 Status make_point(const PointSettings& settings, std::unique_ptr<Method>* method) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (settings.pattern == PointPattern::kBall) {
-    return make_point_with(settings, ball_pattern(settings.samples), method);
-  }
-  if (settings.samples > kMaxDiskSamples) {
-    return invalid_argument(text("samples is ", settings.samples,
-                                 "; the screen pattern has sizes in [1, ", kMaxDiskSamples, "]"));
-  }
-  std::vector<BallSample> flat;
-  for (const DiskSample& s : disk_pattern(settings.samples, false)) {
-    flat.push_back({s.x, s.y, 0, s.weight_constant, s.weight_quadratic});
-  }
-  return make_point_with(settings, flat, method);
+  return make_point_with(settings, ball_pattern(settings.samples), method);
 }
 
 Status make_point_with(const PointSettings& settings, std::span<const BallSample> pattern,
                        std::unique_ptr<Method>* method) {
   if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (settings.pattern == PointPattern::kScreen && settings.occluder.kind != OccluderKind::kSolid) {
-    return invalid_argument(
-        "occluder is thickness; the screen pattern looks at surface points only and takes solid");
-  }
   *method = std::make_unique<PointMethod>(settings, pattern);
   return {};
 }

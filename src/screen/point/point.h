@@ -10,8 +10,9 @@
 
 namespace obscura {
 
-// Point sampling of volumetric obscurance; settings and papers: obscura/point.h. The blur is not
-// part of it (see screen/blurred.h). Writes 1 to background pixels.
+// Point sampling of volumetric obscurance, PointPattern::kBall; settings and papers:
+// obscura/point.h. The blur is not part of it (see screen/blurred.h). Writes 1 to background
+// pixels.
 //
 // Taps are nearest texels; beyond the image's border the border's own texel stands in, as in
 // line.h. With normals, a sample is compared with its texel's surface by height above the tangent

@@ -18,9 +18,6 @@ using obscura::HWY_NAMESPACE::GatherLanes;
 // A sample this share of the depth in front of its surface is not behind it: depths in floats are
 // that coarse.
 constexpr float kDepthGrain = 1e-6f;
-// The screen pattern's surface points lie on the tangent plane itself where the surface is flat;
-// normals from depth are no more exact than this angle.
-constexpr float kAngleGrain = 2e-3f;
 
 HWY_INLINE V Dot(const Vec3& a, const Vec3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
@@ -152,64 +149,6 @@ void BallRow(const PointFrame& f, int row, int begin, int end, float* out) {
   f.view.normal_x ? rotate.template operator()<true>() : rotate.template operator()<false>();
 }
 
-// The screen pattern. Taps are few enough for a plain loop.
-template <bool kPlane>
-void ScreenPixels(const PointFrame& f, int row, int begin, int end, float* HWY_RESTRICT out) {
-  const D d;
-  const RowLoader loader(f.view, row, end);
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), round = hn::Set(d, kRound);
-  const V per_radius = hn::Set(d, 1 / f.view.radius);
-  const float* HWY_RESTRICT base = Base(f.view);
-  for (int i = begin; i < end; i += static_cast<int>(hn::Lanes(d))) {
-    const V z = loader.Depth(i);
-    Receivers r(f.view, f.view.left + i, loader.y, z);
-    const V grain = hn::Mul(hn::Set(d, kDepthGrain), z);
-    if constexpr (kPlane) {
-      Vec3 n = loader.Normal(i);
-      r.SetNormal(&n);
-    }
-    Vec3 noise = {one, zero, zero};
-    if (f.view.noise_x) noise = loader.Noise<false>(i);
-    V occupied = zero;
-    for (int k = 0; k < f.samples; ++k) {
-      const V x = hn::Set(d, f.x[k]), y = hn::Set(d, f.y[k]);
-      const V sx = hn::MulAdd(noise.x, x, hn::Mul(noise.y, y));
-      const V sy = hn::MulSub(noise.y, x, hn::Mul(noise.x, y));
-      VI ix, iy;
-      r.Find(hn::MulAdd(r.reach_x, sx, round), hn::NegMulAdd(r.reach_y, sy, round), &ix, &iy);
-      HWY_ALIGN std::int32_t index[kMaxLanes];
-      hn::Store(r.Index(ix, iy), DI(), index);
-      V kx, ky, ta, tb;
-      r.Offset(ix, iy, &kx, &ky);
-      r.Ray(kx, ky, &ta, &tb);
-      const V offset = hn::Sub(GatherLanes(d, base, index), z);
-      // From the receiver to the surface point, P' - P = t r' - z r, in radii.
-      const V vx = hn::MulAdd(offset, ta, hn::Mul(r.distance, hn::Mul(kx, r.scale_x)));
-      const V vy = hn::MulSub(offset, tb, hn::Mul(r.distance, hn::Mul(ky, r.scale_y)));
-      const V length = hn::Mul(
-          hn::Sqrt(hn::MulAdd(vx, vx, hn::MulAdd(vy, vy, hn::Mul(offset, offset)))), per_radius);
-      V height = hn::Neg(offset);
-      if constexpr (kPlane) {
-        V q, slope;
-        r.Plane(kx, ky, &q, &slope);
-        height = hn::MulSub(offset, slope, hn::Mul(r.distance, q));
-      }
-      const V near = hn::Sub(one, length);
-      const V rho = f.quadratic ? hn::Mul(near, near) : one;
-      const V bias = hn::MulAdd(hn::Set(d, kAngleGrain * f.view.radius), length, grain);
-      const auto occludes = hn::And(hn::Ge(near, zero), hn::Gt(height, bias));
-      occupied =
-          hn::Add(occupied, hn::IfThenElseZero(occludes, hn::Mul(rho, hn::Set(d, f.weight[k]))));
-    }
-    loader.Store(hn::Sub(one, occupied), z, i, out + (i - begin));
-  }
-}
-
-void ScreenRow(const PointFrame& f, int row, int begin, int end, float* out) {
-  f.view.normal_x ? ScreenPixels<true>(f, row, begin, end, out)
-                  : ScreenPixels<false>(f, row, begin, end, out);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura::point
 HWY_AFTER_NAMESPACE();
@@ -218,13 +157,9 @@ HWY_AFTER_NAMESPACE();
 namespace obscura::point {
 
 HWY_EXPORT(BallRow);
-HWY_EXPORT(ScreenRow);
 
 static void ball(const PointFrame& f, int row, int begin, int end, float* out) {
   HWY_DYNAMIC_DISPATCH(BallRow)(f, row, begin, end, out);
-}
-static void screen(const PointFrame& f, int row, int begin, int end, float* out) {
-  HWY_DYNAMIC_DISPATCH(ScreenRow)(f, row, begin, end, out);
 }
 
 }  // namespace obscura::point
@@ -233,9 +168,6 @@ namespace obscura {
 
 void point_ball_row(const PointFrame& frame, int row, int begin, int end, float* out) {
   point::ball(frame, row, begin, end, out);
-}
-void point_screen_row(const PointFrame& frame, int row, int begin, int end, float* out) {
-  point::screen(frame, row, begin, end, out);
 }
 
 }  // namespace obscura

@@ -1,0 +1,22 @@
+#ifndef OBSCURA_SRC_SCREEN_POINT_SCREEN_PATTERN_H_
+#define OBSCURA_SRC_SCREEN_POINT_SCREEN_PATTERN_H_
+
+#include <memory>
+
+#include "obscura/point.h"
+#include "screen/method.h"
+
+namespace obscura {
+
+// Point samples on the screen (PointPattern::kScreen), with their own blur if settings.blur:
+// neighbours whose patterns differ are put together as in directional/interleaved.h. `width` x
+// `height` is the whole depth image. Taps are as in point.h.
+//
+// Directions: the surface point of each sample that occludes tells the direction that is lost, so
+// that mean V w = n/2 - sum of the occluding samples' weights times the directions to their points.
+Status make_screen_point(const PointSettings& settings, int width, int height,
+                         std::unique_ptr<Method>* method);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_SCREEN_POINT_SCREEN_PATTERN_H_

@@ -1,6 +1,9 @@
 #ifndef OBSCURA_SRC_DIRECTIONAL_INTERLEAVED_H_
 #define OBSCURA_SRC_DIRECTIONAL_INTERLEAVED_H_
 
+#include <memory>
+#include <vector>
+
 #include "core/aligned_image.h"
 #include "directional/interleaved_kernel.h"
 #include "obscura/executor.h"
@@ -29,26 +32,30 @@ struct Resolve {
 // the pattern, edge-aware by depth and normal, then directions, cones and integrals.
 class InterleavedSums {
  public:
+  InterleavedSums();
+  ~InterleavedSums();
+
   // Makes room for images of at most this size.
-  void resize(int width, int height, bool blur);
+  void resize(int width, int height);
 
   // Where row y of a channel is written, whole vectors past the end too; finite on the background.
-  float* row(int channel, int y) { return sums_[channel].row(y) + kMargin; }
+  float* row(int channel, int y);
   // To be called when a row is written.
   void close_row(int channels, int width, int y);
 
   void resolve(const view::Geometry& g, const Resolve& how, const Outputs& o, Executor& executor);
 
  private:
-  static constexpr int kMargin = 16;  // pixels left and right of each row
+  struct Tile;
 
-  void blur_rows(const view::Geometry& g, const BlurRow& shared, int reach, int y);
-  void blur_columns(const BlurRow& shared, int reach, int height, int y, int x, int count,
-                    float* const out[kChannels]);
-  void write(const view::Geometry& g, const Resolve& how, const Outputs& o, int y, int x, int count,
-             const float* const sums[kChannels]);
+  void blur_tile(const view::Geometry& g, const Resolve& how, const Outputs& o, int x, int first,
+                 int columns, int end, Tile* tile);
+  static void load_row(const view::Geometry& g, int x, int columns, int y, int to, Tile* tile);
+  static void write(const view::Geometry& g, const Resolve& how, const Outputs& o, int y, int x,
+                    int count, const float* const sums[kChannels]);
 
-  AlignedImage<float> sums_[kChannels], rows_[kChannels], normals_[3], surface_;
+  AlignedImage<float> sums_[kChannels];
+  std::vector<std::unique_ptr<Tile>> tiles_;  // one per thread
 };
 
 }  // namespace obscura::directional

@@ -81,7 +81,7 @@ void BlurPixels(const BlurRow& row, int width) {
         sum[c] = hn::MulAdd(w, hn::LoadU(d, row.values[c] + x + k * row.value_step), sum[c]);
       }
     }
-    const V scale = hn::Div(one, weight_sum);
+    const V scale = FastReciprocal(d, weight_sum);
     for (int c = 0; c < kCount; ++c) hn::StoreU(hn::Mul(sum[c], scale), d, row.out[c] + x);
   }
 }

@@ -6,8 +6,8 @@
 #define OBSCURA_SRC_MATH_CONE_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
+#include "math/fast-inl.h"
 #include "obscura/cone.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,7 @@ HWY_INLINE V ConeAngle(D d, bool paper, V mean_length) {
   namespace hn = hwy::HWY_NAMESPACE;
   const V one = hn::Set(d, 1.0f);
   const V c = hn::Min(hn::Max(hn::MulSub(hn::Set(d, 2.0f), mean_length, one), hn::Zero(d)), one);
-  return paper ? hn::Mul(hn::Sub(one, c), hn::Set(d, 1.57079632679f)) : hn::Acos(d, c);
+  return paper ? hn::Mul(hn::Sub(one, c), hn::Set(d, 1.57079632679f)) : FastAcos(d, c);
 }
 
 // Bent normal and cone from sums with uniform weights. Where nothing is visible, or the visible
@@ -45,9 +45,10 @@ HWY_INLINE BentCone<V> FinishCone(D d, bool paper, const DirectionSums<V>& s, V 
   // Lengths under a millionth of the sum are rounding.
   const V least = hn::Mul(s.open, hn::Set(d, 1e-6f));
   const auto known = hn::And(hn::Gt(square, hn::Mul(least, least)), hn::Gt(s.open, hn::Zero(d)));
-  const V length = hn::Sqrt(square);
-  const V scale = hn::Div(hn::Set(d, 1.0f), length);
-  const V mean = hn::IfThenElseZero(known, hn::Div(length, s.open));
+  const V tiny = hn::Set(d, 1e-37f);
+  const V scale = FastInverseSqrt(d, hn::Max(square, tiny));
+  const V mean = hn::IfThenElseZero(
+      known, hn::Mul(hn::Mul(square, scale), FastReciprocal(d, hn::Max(s.open, tiny))));
   return {hn::IfThenElse(known, hn::Mul(s.x, scale), nx),
           hn::IfThenElse(known, hn::Mul(s.y, scale), ny),
           hn::IfThenElse(known, hn::Mul(s.z, scale), nz), ConeAngle(d, paper, mean)};

@@ -84,7 +84,7 @@ class HemisphereMethod final : public Method {
     frame_.interleave = settings.interleave;
     set_pattern(settings, &frame_);
     if (settings.radiance) set_light();
-    sums_.resize(width, height, settings.blur && settings.interleave > 1);
+    sums_.resize(width, height);
   }
 
   view::Needs needs() const override { return {.normals = true}; }

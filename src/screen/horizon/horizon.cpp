@@ -80,7 +80,7 @@ class HorizonMethod final : public Method {
     frame_.bias_sine = std::sin(settings.angle_bias);
     frame_.bias_cosine = std::cos(settings.angle_bias);
     set_pattern(settings, &frame_);
-    sums_.resize(width, height, blurred());
+    sums_.resize(width, height);
   }
 
   view::Needs needs() const override { return {.normals = true}; }

@@ -54,10 +54,12 @@ HWY_INLINE Receiver MakeReceiver(const Frame& f, const RowLoader& loader, int i,
   r.t2v = hn::Div(across, r.length);
   r.t2w = hn::Neg(hn::Mul(r.b, scale));
 
+  // Beyond the row's end lanes follow the view: what neighbours skip depends on all lanes.
   const Vec3 n = loader.Normal(i);
-  r.nu = n.x;
-  r.nv = hn::Neg(n.y);
-  r.nw = hn::Neg(n.z);
+  const M inside = hn::FirstN(d, std::min(loader.end - i, static_cast<int>(hn::Lanes(d))));
+  r.nu = hn::IfThenElseZero(inside, n.x);
+  r.nv = hn::Neg(hn::IfThenElseZero(inside, n.y));
+  r.nw = hn::Neg(hn::IfThenElse(inside, n.z, one));
   const V inverse = hn::Div(one, r.length);
   r.nr = hn::MulAdd(r.nu, r.a, hn::MulAdd(r.nv, r.b, r.nw));
   r.nz = hn::Neg(hn::Mul(r.nr, inverse));
@@ -111,39 +113,6 @@ struct Point {
   M valid;
 };
 
-// The texel at `pixels` along the line. It is moved parallel to the tangent plane from where its
-// centre lies into the half-plane, so that planes of any tilt stay planes.
-HWY_INLINE Point Fetch(const Frame& f, const Receiver& r, const Line& line, V pixels) {
-  const D d;
-  const DI di;
-  const Camera& c = f.view.camera;
-  const V round = hn::Set(d, kRound);
-  const V kx = hn::Sub(hn::Add(hn::Mul(pixels, line.du), round), round);
-  const V ky = hn::Sub(hn::Add(hn::Mul(pixels, line.dv), round), round);
-  const V zero = hn::Zero(d);
-  const V x = hn::Min(hn::Max(hn::Add(r.u, kx), zero), hn::Set(d, f.view.width - 1.0f));
-  const V y = hn::Min(hn::Max(hn::Add(r.v, ky), zero), hn::Set(d, f.view.height - 1.0f));
-  HWY_ALIGN std::int32_t index[kMaxLanes];
-  // Counts from the image's middle row, as taps do.
-  const VI row = hn::Sub(hn::ConvertTo(di, y), hn::Set(di, f.view.height / 2));
-  const VI stride = hn::Set(di, static_cast<std::int32_t>(f.view.stride));
-  hn::Store(hn::Add(hn::Mul(row, stride), hn::ConvertTo(di, x)), di, index);
-  const V q = om::GatherLanes(d, Base(f.view), index);
-  const V ku = hn::Mul(hn::Sub(x, r.u), hn::Set(d, c.scale_x));
-  const V kv = hn::Mul(hn::Sub(y, r.v), hn::Set(d, c.scale_y));
-  Point p;
-  p.valid = hn::Lt(q, hn::Inf(d));
-  const V depth = hn::IfThenElse(p.valid, q, r.z);
-  const V away = c.orthographic ? r.distance : depth;
-  // With k = (ku, kv, 0) the point is at q (r + k) - z r from the receiver; r.t = 0.
-  p.x = hn::Mul(away, hn::MulAdd(ku, line.tu, hn::Mul(kv, line.tv)));
-  const V nk = hn::MulAdd(ku, r.nu, hn::Mul(kv, r.nv));
-  const V height = hn::MulAdd(away, nk, hn::Mul(hn::Sub(depth, r.z), r.nr));
-  p.y = hn::Mul(hn::NegMulAdd(line.nt, p.x, height), r.inverse_nz);
-  p.valid = hn::And(p.valid, hn::Gt(p.x, zero));
-  return p;
-}
-
 // The rotation of direction k, and its samples' shift, for pixels from column i of a row on.
 struct Turn {
   V cosine, sine, shift;
@@ -169,6 +138,54 @@ HWY_INLINE V SampleAt(const Frame& f, const Line& line, V shift, int j) {
   if constexpr (kSquared) share = hn::Mul(share, share);
   const V least = hn::Set(d, static_cast<float>(j + 1));
   return hn::Min(hn::Max(hn::Mul(share, line.last), least), line.last);
+}
+
+// The surface points at the samples along a line, one after the other, for add(point). Their texels
+// are found a batch at a time, so that no load waits for the index that was stored just before it.
+// A texel is moved parallel to the tangent plane from where its centre lies into the half-plane, so
+// that planes of any tilt stay planes.
+constexpr int kBatch = 8;
+template <bool kSquared, class Add>
+HWY_INLINE void ForPoints(const Frame& f, const Receiver& r, const Line& line, V shift, Add add) {
+  const D d;
+  const DI di;
+  const Camera& c = f.view.camera;
+  const V zero = hn::Zero(d), round = hn::Set(d, kRound);
+  const V last_u = hn::Set(d, f.view.width - 1.0f), last_v = hn::Set(d, f.view.height - 1.0f);
+  const V scale_u = hn::Set(d, c.scale_x), scale_v = hn::Set(d, c.scale_y);
+  const VI stride = hn::Set(di, static_cast<std::int32_t>(f.view.stride));
+  const VI middle = hn::Set(di, f.view.height / 2);  // rows count from there, as taps' do
+  HWY_ALIGN std::int32_t index[kBatch][kMaxLanes];
+  HWY_ALIGN float offset[2][kBatch][kMaxLanes];
+  for (int first = 0; first < f.steps; first += kBatch) {
+    const int count = std::min(kBatch, f.steps - first);
+    for (int j = 0; j < count; ++j) {
+      const V pixels = SampleAt<kSquared>(f, line, shift, first + j);
+      const V kx = hn::Sub(hn::MulAdd(pixels, line.du, round), round);
+      const V ky = hn::Sub(hn::MulAdd(pixels, line.dv, round), round);
+      const V x = hn::Min(hn::Max(hn::Add(r.u, kx), zero), last_u);
+      const V y = hn::Min(hn::Max(hn::Add(r.v, ky), zero), last_v);
+      const VI row = hn::Sub(hn::ConvertTo(di, y), middle);
+      hn::Store(hn::Add(hn::Mul(row, stride), hn::ConvertTo(di, x)), di, index[j]);
+      hn::Store(hn::Mul(hn::Sub(x, r.u), scale_u), d, offset[0][j]);
+      hn::Store(hn::Mul(hn::Sub(y, r.v), scale_v), d, offset[1][j]);
+    }
+    for (int j = 0; j < count; ++j) {
+      const V q = om::GatherLanes(d, Base(f.view), index[j]);
+      const V ku = hn::Load(d, offset[0][j]), kv = hn::Load(d, offset[1][j]);
+      Point p;
+      p.valid = hn::Lt(q, hn::Inf(d));
+      const V depth = hn::IfThenElse(p.valid, q, r.z);
+      const V away = c.orthographic ? r.distance : depth;
+      // With k = (ku, kv, 0) the point is at q (r + k) - z r from the receiver; r.t = 0.
+      p.x = hn::Mul(away, hn::MulAdd(ku, line.tu, hn::Mul(kv, line.tv)));
+      const V nk = hn::MulAdd(ku, r.nu, hn::Mul(kv, r.nv));
+      const V height = hn::MulAdd(away, nk, hn::Mul(hn::Sub(depth, r.z), r.nr));
+      p.y = hn::Mul(hn::NegMulAdd(line.nt, p.x, height), r.inverse_nz);
+      p.valid = hn::And(p.valid, hn::Gt(p.x, zero));
+      add(p);
+    }
+  }
 }
 
 // rho = 1 up to R: cos of the zenith angle down to which the matter below a sample, which hangs
@@ -232,11 +249,10 @@ HWY_INLINE void AddConstantSlice(const Frame& f, const Receiver& r, const Line& 
   const V one = hn::Set(d, 1.0f);
   const V radius = hn::Set(d, f.rho->radius), inverse_radius = hn::Set(d, f.rho->inverse_radius);
   V cosine = slice.edge_cosine;
-  for (int j = 0; j < f.steps; ++j) {
-    const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
+  ForPoints<true>(f, r, line, turn.shift, [&](const Point& p) HWY_ATTR {
     const V c = CutCosine(p.x, p.y, slice.camera, slice.perspective, radius, inverse_radius);
     cosine = hn::IfThenElse(p.valid, hn::Max(cosine, c), cosine);
-  }
+  });
   cosine = hn::Min(cosine, one);
   const V sine = hn::Sqrt(hn::NegMulAdd(cosine, cosine, one));
   const V angle = om::FastAcos(d, cosine);
@@ -257,11 +273,10 @@ HWY_INLINE void AddSlice(const Frame& f, const Receiver& r, const Line& line, co
                          const om::Slice<V>& slice, Obscured* sum) {
   const D d;
   om::Horizon<D> h = om::StartHorizon<kSums>(d, slice, true);
-  for (int j = 0; j < f.steps; ++j) {
-    const Point p = Fetch(f, r, line, SampleAt<true>(f, line, turn.shift, j));
+  ForPoints<true>(f, r, line, turn.shift, [&](const Point& p) HWY_ATTR {
     om::AddPoint<kKind, kChord, false, kSums>(d, *f.rho, slice, p.x, p.y, p.valid, hn::Set(d, 1.0f),
                                               h);
-  }
+  });
   sum->visibility = hn::Add(sum->visibility, h.sum);
   if constexpr (kSums != SliceSums::kVisibility) AddDirection(turn, h.sum_x, h.sum_y, sum);
   if constexpr (kSums == SliceSums::kUniform) sum->solid = hn::Add(sum->solid, h.sum_solid);
@@ -326,9 +341,8 @@ void SlicesAny(const Frame& f, SliceSums sums, int row, int width, Rows out) {
 // Bavoil et al.: elevations h over the plane at right angles to the zenith, from the tangent
 // plane's t on; AO = 1/(2 pi) integral of the sum of W(r_i) (sin h_i - sin h_(i-1)).
 //
-// Directions: the same pieces' sin h is summed exactly, as the integral of s ds over s = sin h is
-// the difference of squares. Their cos h, which is at right angles to it, is taken at the mean
-// square of s over one piece from the tangent plane to the horizon with that mean of s.
+// Directions: what a slice has lost is taken to lie evenly over s = sin h from the tangent plane to
+// the horizon, with mean s and mean square of cos h = 1 - (mean s)^2 - extent^2/12.
 template <bool kDirections>
 void Classic(const Frame& f, int row, int width, Rows out) {
   const D d;
@@ -346,29 +360,22 @@ void Classic(const Frame& f, int row, int width, Rows out) {
       const V tangent_sine = hn::Neg(hn::Mul(line.nt, scale));
       const V start = hn::MulAdd(tangent_sine, hn::Set(d, f.bias_cosine),
                                  hn::Mul(hn::Mul(r.nz, scale), hn::Set(d, f.bias_sine)));
-      V horizon = start, obscured = zero, twice_zenith = zero;
-      for (int j = 0; j < f.steps; ++j) {
-        const Point p = Fetch(f, r, line, SampleAt<false>(f, line, turn.shift, j));
+      V horizon = start, obscured = zero;
+      ForPoints<false>(f, r, line, turn.shift, [&](const Point& p) HWY_ATTR {
         const V square = hn::Max(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)), hn::Set(d, 1e-37f));
         const V sine = hn::Mul(p.y, om::FastInverseSqrt(d, square));
         const V weight = hn::NegMulAdd(square, inverse, one);
         const M counts = hn::And(hn::And(p.valid, hn::Gt(weight, zero)), hn::Gt(sine, horizon));
-        const V rise = hn::IfThenElseZero(counts, hn::Mul(weight, hn::Sub(sine, horizon)));
-        obscured = hn::Add(obscured, rise);
-        if constexpr (kDirections) {
-          twice_zenith = hn::MulAdd(rise, hn::Add(sine, horizon), twice_zenith);
-        }
+        const V rise = hn::Mul(weight, hn::Sub(sine, horizon));
+        obscured = hn::Add(obscured, hn::IfThenElseZero(counts, rise));
         horizon = hn::IfThenElse(counts, sine, horizon);
-      }
+      });
       sum.solid = hn::Add(sum.solid, obscured);
       if constexpr (kDirections) {
-        const V zenith = hn::Mul(twice_zenith, half);
-        const V mean =
-            hn::Mul(zenith, om::FastReciprocal(d, hn::Max(obscured, hn::Set(d, 1e-30f))));
-        const V extent = hn::Sub(horizon, start);
-        const V rest = hn::NegMulAdd(
-            mean, mean, hn::NegMulAdd(hn::Mul(extent, extent), hn::Set(d, 1.0f / 12), one));
-        AddDirection(turn, hn::Mul(obscured, hn::Sqrt(hn::Max(rest, zero))), zenith, &sum);
+        const V mean = hn::Mul(half, hn::Add(start, horizon)), extent = hn::Sub(horizon, start);
+        const V spread = hn::Mul(hn::Mul(extent, extent), hn::Set(d, 1.0f / 12));
+        const V rest = hn::Max(hn::NegMulAdd(mean, mean, hn::Sub(one, spread)), zero);
+        AddDirection(turn, hn::Mul(obscured, hn::Sqrt(rest)), hn::Mul(obscured, mean), &sum);
       }
     }
     hn::StoreU(hn::NegMulAdd(sum.solid, each, one), d, out[0] + i);

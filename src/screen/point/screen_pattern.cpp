@@ -30,7 +30,7 @@ class ScreenPointMethod final : public Method {
       frame_.weight[i] = static_cast<float>(pattern[i].weight_constant / sum);
     }
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
-    sums_.resize(width, height, settings.blur);
+    sums_.resize(width, height);
   }
 
   view::Needs needs() const override { return {.normals = true, .works_without_normals = true}; }

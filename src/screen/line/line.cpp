@@ -38,14 +38,8 @@ void set_pattern(std::span<const DiskSample> pattern, LineFrame* f) {
 
 class LineMethod final : public Method {
  public:
-  LineMethod(const LineSettings& settings, std::span<const DiskSample> pattern) {
-    frame_.view.radius = view::tap_radius(settings.falloff.radius);
-    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-    frame_.tangent = settings.sphere == SphereKind::kTangent;
-    if (settings.occluder.kind == OccluderKind::kThickness) {
-      frame_.thickness = settings.occluder.thickness;
-    }
-    set_pattern(pattern, &frame_);
+  LineMethod(const LineSettings& settings, std::span<const DiskSample> pattern)
+      : frame_(line_frame(settings, pattern)) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
   }
 
@@ -71,6 +65,16 @@ class LineMethod final : public Method {
 };
 
 }  // namespace
+
+LineFrame line_frame(const LineSettings& settings, std::span<const DiskSample> pattern) {
+  LineFrame f;
+  f.view.radius = view::tap_radius(settings.falloff.radius);
+  f.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  f.tangent = settings.sphere == SphereKind::kTangent;
+  if (settings.occluder.kind == OccluderKind::kThickness) f.thickness = settings.occluder.thickness;
+  set_pattern(pattern, &f);
+  return f;
+}
 
 Status make_line(const LineSettings& settings, std::unique_ptr<Method>* method) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;

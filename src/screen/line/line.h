@@ -10,6 +10,8 @@
 
 namespace obscura {
 
+struct LineFrame;
+
 // Line sampling of volumetric obscurance; settings and paper: obscura/line.h. The blur is not part
 // of it (see screen/blurred.h). Writes 1 to background pixels.
 //
@@ -23,6 +25,9 @@ Status make_line(const LineSettings& settings, std::unique_ptr<Method>* method);
 // not count.
 Status make_line_with(const LineSettings& settings, std::span<const DiskSample> pattern,
                       std::unique_ptr<Method>* method);
+
+// What all frames have in common: the pattern in the units that kernels want, on any device.
+LineFrame line_frame(const LineSettings& settings, std::span<const DiskSample> pattern);
 
 }  // namespace obscura
 

@@ -1,0 +1,102 @@
+#ifndef OBSCURA_VULKAN_H_
+#define OBSCURA_VULKAN_H_
+
+#include <vulkan/vulkan_core.h>
+
+#include <memory>
+#include <span>
+
+#include "obscura/depth_field.h"
+#include "obscura/estimator.h"
+
+// Estimators on the caller's Vulkan device, recorded into the caller's command buffer. Vulkan 1.1
+// and the feature shaderStorageImageWriteWithoutFormat; nothing is linked against the loader.
+// Methods so far: line.
+namespace obscura::vulkan {
+
+// The caller's; must outlive every Recorder made from it.
+struct Device {
+  VkDevice device = VK_NULL_HANDLE;
+  PFN_vkGetDeviceProcAddr get_device_proc_addr = nullptr;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  // optional
+};
+
+// What stays the same from frame to frame.
+struct FrameShape {
+  int width = 0, height = 0;  // whole depth image, guard band included; 1 to 16384 a side
+  GuardBand guard_band{};
+  DepthKind depth_kind = DepthKind::kLinear;
+  bool normals = false;  // an image of normals is given; else they come from depth
+  NormalUse normal_use = NormalUse::kAuto;
+  int frames = 2;  // sets of images that may be in flight, 1 to 8
+};
+
+// Images of one frame; views of the whole image, colour aspect or depth aspect.
+struct FrameImages {
+  VkImageView depth = VK_NULL_HANDLE;  // R32_SFLOAT or D32_SFLOAT, SHADER_READ_ONLY_OPTIMAL
+  // Eye space, as DepthField::normals: any float or SNORM format, SHADER_READ_ONLY_OPTIMAL.
+  VkImageView normals = VK_NULL_HANDLE;
+  // Visible size; R8_UNORM, R16_SFLOAT or R32_SFLOAT, in GENERAL while recorded work runs.
+  VkImageView visibility = VK_NULL_HANDLE;
+};
+
+// What may change with each frame.
+struct FrameView {
+  Camera camera{};
+  float near_plane = 0;  // NDC kinds
+  float far_plane = std::numeric_limits<float>::infinity();
+};
+
+// Memory that the caller provides for what passes hand on: STORAGE_BUFFER and TRANSFER_DST usage,
+// device-local. One is enough for all frames on one queue.
+struct Scratch {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;  // a multiple of 256
+};
+
+struct RecordOptions {
+  // A pool of timestamps, or null: record() then writes timestamp `first_query + i` after pass i,
+  // and before the first one `first_query`; pass_names() + 1 queries, reset by the caller.
+  VkQueryPool timestamps = VK_NULL_HANDLE;
+  std::uint32_t first_query = 0;
+};
+
+// One estimator's pipelines. record() neither allocates nor submits, waits or maps.
+//
+// Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the processor's
+// Estimator refuses it.
+class Recorder {
+ public:
+  Recorder();
+  ~Recorder();
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
+
+  // Makes pipelines; settings, sizes or a device that cannot be used are refused with a message.
+  static Status create(const Device& device, const MethodSettings& settings,
+                       const FrameShape& shape, Recorder* recorder);
+
+  VkDeviceSize scratch_bytes() const;
+  void bind_scratch(const Scratch& scratch);
+  // `frame` is below FrameShape::frames and not in flight. After bind_scratch.
+  Status bind_images(int frame, const FrameImages& images);
+
+  // Once, before the first record(): fills the tables in the scratch memory.
+  void record_tables(VkCommandBuffer commands) const;
+
+  // Waits, on the device, for earlier compute and transfer work on the scratch memory; the caller's
+  // barriers make depth and normals visible to COMPUTE_SHADER reads, and make the visibility that
+  // it writes there visible to what follows.
+  void record(VkCommandBuffer commands, int frame, const FrameView& view,
+              const RecordOptions& options = {}) const;
+
+  std::span<const char* const> pass_names() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace obscura::vulkan
+
+#endif  // OBSCURA_VULKAN_H_

@@ -1,0 +1,39 @@
+// The words of leaf functions (math/*_leaf.h) over Highway lanes; included once per SIMD target, in
+// the namespace HWY_NAMESPACE. A leaf file is plain arithmetic without branches, so that the same
+// text is C++ here and GLSL in shaders (math/leaf_glsl.h).
+#if defined(OBSCURA_SRC_MATH_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef OBSCURA_SRC_MATH_LEAF_INL_H_
+#undef OBSCURA_SRC_MATH_LEAF_INL_H_
+#else
+#define OBSCURA_SRC_MATH_LEAF_INL_H_
+#endif
+
+#include "hwy/contrib/math/math-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace obscura {
+namespace HWY_NAMESPACE {
+namespace leaf {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using Real = hn::Vec<D>;
+
+HWY_INLINE Real real(float x) { return hn::Set(D(), x); }
+HWY_INLINE Real leaf_abs(Real x) { return hn::Abs(x); }
+HWY_INLINE Real leaf_sqrt(Real x) { return hn::Sqrt(x); }
+HWY_INLINE Real leaf_log(Real x) { return hn::Log(D(), x); }
+HWY_INLINE Real leaf_fma(Real a, Real b, Real c) { return hn::MulAdd(a, b, c); }
+HWY_INLINE Real leaf_copysign(Real magnitude, Real z) { return hn::CopySign(magnitude, z); }
+
+#define LEAF(type) HWY_INLINE type
+#include "math/sphere_line_leaf.h"
+#undef LEAF
+
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+}  // namespace obscura
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

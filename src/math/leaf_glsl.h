@@ -1,0 +1,9 @@
+// The words of leaf functions (math/*_leaf.h) in GLSL. math/leaf-inl.h says the same in C++.
+#define Real float
+#define LEAF(type) type
+#define real(x) (x)
+#define leaf_abs abs
+#define leaf_sqrt sqrt
+#define leaf_log log
+#define leaf_fma fma
+#define leaf_copysign(magnitude, z) ((z) < 0.0 ? -(magnitude) : (magnitude))

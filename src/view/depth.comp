@@ -1,0 +1,36 @@
+// Linear depth of any kind of depth image; background is +inf (view/geometry.cpp, convert).
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "vulkan/view.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kDepthKind = 0;  // DepthKind
+
+layout(binding = 0) uniform texture2D depth_image;
+layout(binding = 1) writeonly buffer Depth { float depth[]; };
+
+// `reversed` is 1 near and 0 far, `forward` the opposite; both keep precision at their own end.
+float from_ndc(float reversed, float forward) {
+  if (!(reversed > 0.0 && forward >= 0.0)) return kInf;
+  if (view.orthographic != 0) return view.near_plane * reversed + view.far_plane * forward;
+  return isinf(view.far_plane)
+             ? view.near_plane / reversed
+             : view.near_plane * view.far_plane /
+                   (view.near_plane * forward + view.far_plane * reversed);
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (p.x >= view.width || p.y >= view.height) return;
+  const float v = texelFetch(depth_image, p, 0).r;
+  float d = v;
+  if (kDepthKind == 1 && view.orthographic == 0) {
+    const float a = (float(p.x) + 0.5 - view.center_u) * view.scale_x;
+    const float b = (view.center_v - (float(p.y) + 0.5)) * view.scale_y;
+    d = v / sqrt(1.0 + a * a + b * b);
+  }
+  if (kDepthKind == 2) d = from_ndc(1.0 - v, v);
+  if (kDepthKind == 3) d = from_ndc(v, 1.0 - v);
+  depth[p.y * view.width + p.x] = d > 0.0 && d < view.far_plane ? d : kInf;
+}

@@ -1,0 +1,356 @@
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "core/text.h"
+#include "obscura/vulkan.h"
+#include "vulkan/frame_constants.h"
+#include "vulkan/functions.h"
+#include "vulkan/program.h"
+
+namespace obscura::vulkan {
+namespace {
+
+constexpr VkDeviceSize kAlignment = 256;    // the largest minStorageBufferOffsetAlignment allowed
+constexpr int kGroup = 8;                   // local_size of the shaders
+constexpr VkDeviceSize kMaxUpdate = 65536;  // of vkCmdUpdateBuffer
+
+VkDeviceSize aligned(VkDeviceSize bytes) {
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+VkDescriptorType type_of(const Slot& slot) {
+  if (slot.kind == Slot::kRegion) return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  return slot.kind == Slot::kVisibilityImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                             : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+}
+
+Status check(const Device& device, const FrameShape& s) {
+  if (!device.device || !device.get_device_proc_addr) {
+    return invalid_argument("device and get_device_proc_addr must be given");
+  }
+  if (s.width < 1 || s.height < 1 || s.width > 16384 || s.height > 16384) {
+    return invalid_argument(
+        text("shape is ", s.width, "x", s.height, "; each side must be in [1, 16384]"));
+  }
+  const GuardBand& g = s.guard_band;
+  if (g.left < 0 || g.right < 0 || g.top < 0 || g.bottom < 0 || g.left + g.right >= s.width ||
+      g.top + g.bottom >= s.height) {
+    return invalid_argument(text("guard_band leaves nothing visible of ", s.width, "x", s.height));
+  }
+  if (s.frames < 1 || s.frames > 8) {
+    return invalid_argument(text("frames is ", s.frames, "; it must be in [1, 8]"));
+  }
+  return {};
+}
+
+}  // namespace
+
+class Recorder::Impl {
+ public:
+  Impl(const Device& device, const FrameShape& shape) : device_(device), shape_(shape) {}
+  ~Impl() {
+    if (pool_) f_.DestroyDescriptorPool(device_.device, pool_, nullptr);
+    for (const Stage& s : stages_) {
+      if (s.pipeline) f_.DestroyPipeline(device_.device, s.pipeline, nullptr);
+      if (s.layout) f_.DestroyPipelineLayout(device_.device, s.layout, nullptr);
+      if (s.set_layout) f_.DestroyDescriptorSetLayout(device_.device, s.set_layout, nullptr);
+    }
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  Status create(Program program) {
+    if (!f_.load(device_.device, device_.get_device_proc_addr)) {
+      return unsupported("the device lacks functions of Vulkan 1.1");
+    }
+    program_ = std::move(program);
+    for (VkDeviceSize bytes : program_.regions) {
+      offsets_.push_back(scratch_bytes_);
+      scratch_bytes_ += aligned(bytes);
+    }
+    stages_.resize(program_.passes.size());
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      if (!make_stage(program_.passes[i], &stages_[i])) {
+        return {StatusCode::kOutOfMemory, "the device could not make a pipeline"};
+      }
+      names_.push_back(program_.passes[i].name);
+    }
+    if (!make_sets()) return {StatusCode::kOutOfMemory, "the device has no descriptors left"};
+    return {};
+  }
+
+  VkDeviceSize scratch_bytes() const { return scratch_bytes_; }
+  void bind_scratch(const Scratch& scratch) { scratch_ = scratch; }
+  std::span<const char* const> names() const { return names_; }
+
+  Status bind_images(int frame, const FrameImages& images) {
+    if (frame < 0 || frame >= shape_.frames) {
+      return invalid_argument(text("frame is ", frame, "; it must be in [0, ", shape_.frames, ")"));
+    }
+    if (!scratch_.buffer) return invalid_argument("scratch memory must be bound before images");
+    if (!images.depth || !images.visibility || (shape_.normals && !images.normals)) {
+      return invalid_argument("depth, visibility and, if the shape says so, normals must be given");
+    }
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      const Pass& pass = program_.passes[i];
+      for (std::size_t b = 0; b < pass.slots.size(); ++b) {
+        write(stages_[i].sets[frame], static_cast<std::uint32_t>(b), pass.slots[b], images);
+      }
+    }
+    return {};
+  }
+
+  void record_tables(VkCommandBuffer commands) const {
+    if (program_.table_region < 0) return;
+    const VkDeviceSize start = scratch_.offset + offsets_[program_.table_region];
+    const VkDeviceSize bytes = program_.tables.size() * sizeof(float);
+    for (VkDeviceSize at = 0; at < bytes; at += kMaxUpdate) {
+      f_.CmdUpdateBuffer(commands, scratch_.buffer, start + at, std::min(kMaxUpdate, bytes - at),
+                         program_.tables.data() + at / sizeof(float));
+    }
+  }
+
+  void record(VkCommandBuffer commands, int frame, const FrameView& view,
+              const RecordOptions& options) const {
+    const FrameConstants constants = constants_of(view);
+    auto stamp = [&](std::size_t i) {
+      if (!options.timestamps) return;
+      f_.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, options.timestamps,
+                           options.first_query + static_cast<std::uint32_t>(i));
+    };
+    barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    stamp(0);
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      const Stage& s = stages_[i];
+      const Pass& pass = program_.passes[i];
+      if (i > 0) {
+        barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
+      }
+      f_.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s.pipeline);
+      f_.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s.layout, 0, 1,
+                               &s.sets[frame], 0, nullptr);
+      f_.CmdPushConstants(commands, s.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                          &constants);
+      f_.CmdDispatch(commands, (pass.width + kGroup - 1) / kGroup,
+                     (pass.height + kGroup - 1) / kGroup, 1);
+      stamp(i + 1);
+    }
+  }
+
+ private:
+  struct Stage {
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> sets;  // one per frame
+  };
+
+  bool make_stage(const Pass& pass, Stage* stage) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const Slot& slot : pass.slots) {
+      bindings.push_back({.binding = static_cast<std::uint32_t>(bindings.size()),
+                          .descriptorType = type_of(slot),
+                          .descriptorCount = 1,
+                          .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
+                          .pImmutableSamplers = nullptr});
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
+    if (f_.CreateDescriptorSetLayout(device_.device, &set_info, nullptr, &stage->set_layout) !=
+        VK_SUCCESS) {
+      return false;
+    }
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(FrameConstants)};
+    VkPipelineLayoutCreateInfo layout_info{};
+    layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout_info.setLayoutCount = 1;
+    layout_info.pSetLayouts = &stage->set_layout;
+    layout_info.pushConstantRangeCount = 1;
+    layout_info.pPushConstantRanges = &range;
+    if (f_.CreatePipelineLayout(device_.device, &layout_info, nullptr, &stage->layout) !=
+        VK_SUCCESS) {
+      return false;
+    }
+    return make_pipeline(pass, stage);
+  }
+
+  bool make_pipeline(const Pass& pass, Stage* stage) {
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = pass.spirv.size_bytes();
+    module_info.pCode = pass.spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    if (f_.CreateShaderModule(device_.device, &module_info, nullptr, &module) != VK_SUCCESS) {
+      return false;
+    }
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < pass.constants.size(); ++i) {
+      entries.push_back(
+          {i, i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)});
+    }
+    const VkSpecializationInfo specialization{
+        static_cast<std::uint32_t>(entries.size()), entries.data(),
+        pass.constants.size() * sizeof(std::uint32_t), pass.constants.data()};
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &specialization;
+    info.layout = stage->layout;
+    const VkResult result = f_.CreateComputePipelines(device_.device, device_.pipeline_cache, 1,
+                                                      &info, nullptr, &stage->pipeline);
+    f_.DestroyShaderModule(device_.device, module, nullptr);
+    return result == VK_SUCCESS;
+  }
+
+  bool make_sets() {
+    const auto frames = static_cast<std::uint32_t>(shape_.frames);
+    std::uint32_t count[3] = {};  // as the types below
+    constexpr VkDescriptorType kTypes[] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                           VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                           VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+    for (const Pass& pass : program_.passes) {
+      for (const Slot& slot : pass.slots) {
+        for (int t = 0; t < 3; ++t) count[t] += type_of(slot) == kTypes[t] ? frames : 0;
+      }
+    }
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (int t = 0; t < 3; ++t) {
+      if (count[t] > 0) sizes.push_back({kTypes[t], count[t]});
+    }
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = frames * static_cast<std::uint32_t>(stages_.size());
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    if (f_.CreateDescriptorPool(device_.device, &pool_info, nullptr, &pool_) != VK_SUCCESS) {
+      return false;
+    }
+    for (Stage& s : stages_) {
+      const std::vector<VkDescriptorSetLayout> layouts(frames, s.set_layout);
+      s.sets.resize(frames);
+      VkDescriptorSetAllocateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+      info.descriptorPool = pool_;
+      info.descriptorSetCount = frames;
+      info.pSetLayouts = layouts.data();
+      if (f_.AllocateDescriptorSets(device_.device, &info, s.sets.data()) != VK_SUCCESS) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void write(VkDescriptorSet set, std::uint32_t binding, const Slot& slot,
+             const FrameImages& images) const {
+    VkWriteDescriptorSet w{};
+    w.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    w.dstSet = set;
+    w.dstBinding = binding;
+    w.descriptorCount = 1;
+    w.descriptorType = type_of(slot);
+    VkDescriptorBufferInfo buffer{};
+    VkDescriptorImageInfo image{};
+    if (slot.kind == Slot::kRegion) {
+      buffer = {scratch_.buffer, scratch_.offset + offsets_[slot.region],
+                program_.regions[slot.region]};
+      w.pBufferInfo = &buffer;
+    } else {
+      const bool output = slot.kind == Slot::kVisibilityImage;
+      image.imageView = output                            ? images.visibility
+                        : slot.kind == Slot::kNormalImage ? images.normals
+                                                          : images.depth;
+      image.imageLayout =
+          output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+      w.pImageInfo = &image;
+    }
+    f_.UpdateDescriptorSets(device_.device, 1, &w, 0, nullptr);
+  }
+
+  FrameConstants constants_of(const FrameView& v) const {
+    const GuardBand& g = shape_.guard_band;
+    return {.scale_x = v.camera.scale_x,
+            .scale_y = v.camera.scale_y,
+            .center_u = v.camera.center_u,
+            .center_v = v.camera.center_v,
+            .width = shape_.width,
+            .height = shape_.height,
+            .left = g.left,
+            .top = g.top,
+            .visible_width = shape_.width - g.left - g.right,
+            .visible_height = shape_.height - g.top - g.bottom,
+            .near_plane = v.near_plane,
+            .far_plane = v.far_plane,
+            .orthographic = v.camera.orthographic,
+            .radius = program_.radius,
+            .thickness = program_.thickness};
+  }
+
+  void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written) const {
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, written,
+                                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    f_.CmdPipelineBarrier(commands, from, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &memory, 0,
+                          nullptr, 0, nullptr);
+  }
+
+  const Device device_;
+  const FrameShape shape_;
+  Functions f_;
+  Program program_;
+  std::vector<VkDeviceSize> offsets_;
+  VkDeviceSize scratch_bytes_ = 0;
+  Scratch scratch_;
+  std::vector<Stage> stages_;
+  std::vector<const char*> names_;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+};
+
+Recorder::Recorder() = default;
+Recorder::~Recorder() = default;
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+Status Recorder::create(const Device& device, const MethodSettings& settings,
+                        const FrameShape& shape, Recorder* recorder) {
+  if (Status s = check(device, shape); !s.ok()) return s;
+  try {
+    Program program;
+    const auto* line = std::get_if<LineSettings>(&settings);
+    if (!line) return unsupported("this method does not run on Vulkan yet; line does");
+    if (Status s = make_program(*line, shape, &program); !s.ok()) return s;
+    auto impl = std::make_unique<Impl>(device, shape);
+    if (Status s = impl->create(std::move(program)); !s.ok()) return s;
+    recorder->impl_ = std::move(impl);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::kOutOfMemory, "out of memory while creating the recorder"};
+  }
+}
+
+VkDeviceSize Recorder::scratch_bytes() const { return impl_ ? impl_->scratch_bytes() : 0; }
+void Recorder::bind_scratch(const Scratch& scratch) {
+  if (impl_) impl_->bind_scratch(scratch);
+}
+Status Recorder::bind_images(int frame, const FrameImages& images) {
+  return impl_ ? impl_->bind_images(frame, images)
+               : invalid_argument("the recorder has not been created");
+}
+void Recorder::record_tables(VkCommandBuffer commands) const {
+  if (impl_) impl_->record_tables(commands);
+}
+void Recorder::record(VkCommandBuffer commands, int frame, const FrameView& view,
+                      const RecordOptions& options) const {
+  if (impl_) impl_->record(commands, frame, view, options);
+}
+std::span<const char* const> Recorder::pass_names() const {
+  if (!impl_) return {};
+  return impl_->names();
+}
+
+}  // namespace obscura::vulkan

@@ -1,0 +1,524 @@
+#define VOLK_IMPLEMENTATION
+#include "support/vulkan/headless.h"
+
+#include <volk.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "fmt/format.h"
+#include "obscura/vulkan.h"
+
+namespace obscura::support {
+namespace {
+
+constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
+
+Status failed(const char* call, VkResult result) {
+  return {StatusCode::kUnsupported,
+          fmt::format("{} failed on the Vulkan device ({})", call, static_cast<int>(result))};
+}
+
+VkBool32 VKAPI_PTR keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                VkDebugUtilsMessageTypeFlagsEXT,
+                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+  static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
+  return VK_FALSE;
+}
+
+VulkanDeviceInfo describe(VkPhysicalDevice device) {
+  VkPhysicalDeviceVulkan12Properties driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &driver;
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  return {properties.properties.deviceName,
+          fmt::format("{} {}", driver.driverName, driver.driverInfo),
+          properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+}
+
+Status make_instance(bool validate, std::vector<std::string>* messages, VkInstance* instance) {
+  if (volkInitialize() != VK_SUCCESS) {
+    return {StatusCode::kUnsupported, "there is no Vulkan loader (libvulkan.so.1) on this machine"};
+  }
+  VkApplicationInfo app{};
+  app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  app.pApplicationName = "obscura";
+  app.apiVersion = VK_API_VERSION_1_2;
+  VkDebugUtilsMessengerCreateInfoEXT messenger{};
+  messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                              VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+  messenger.pfnUserCallback = keep_message;
+  messenger.pUserData = messages;
+  const VkValidationFeatureEnableEXT enabled[] = {
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  VkValidationFeaturesEXT features{};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.pNext = &messenger;
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = enabled;
+  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pApplicationInfo = &app;
+  if (validate) {
+    info.pNext = &features;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &kValidation;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = extensions;
+  }
+  const VkResult result = vkCreateInstance(&info, nullptr, instance);
+  if (result == VK_ERROR_LAYER_NOT_PRESENT) {
+    return {StatusCode::kUnsupported, fmt::format("the layer {} is not installed", kValidation)};
+  }
+  if (result != VK_SUCCESS) return failed("vkCreateInstance", result);
+  volkLoadInstance(*instance);
+  return {};
+}
+
+Status physical_devices(VkInstance instance, std::vector<VkPhysicalDevice>* devices) {
+  std::uint32_t count = 0;
+  vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  devices->resize(count);
+  if (count > 0) vkEnumeratePhysicalDevices(instance, &count, devices->data());
+  if (count == 0) {
+    return {StatusCode::kUnsupported,
+            "there is no Vulkan driver on this machine (mesa-vulkan-drivers has a software one)"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Status list_vulkan_devices(std::vector<VulkanDeviceInfo>* devices) {
+  VkInstance instance = VK_NULL_HANDLE;
+  if (Status s = make_instance(false, nullptr, &instance); !s.ok()) return s;
+  std::vector<VkPhysicalDevice> physical;
+  const Status status = physical_devices(instance, &physical);
+  devices->clear();
+  for (VkPhysicalDevice d : physical) devices->push_back(describe(d));
+  vkDestroyInstance(instance, nullptr);
+  return status;
+}
+
+class HeadlessVulkan::Impl {
+ public:
+  ~Impl() {
+    if (device_) {
+      vkDestroyQueryPool(device_, queries_, nullptr);
+      vkDestroyFence(device_, fence_, nullptr);
+      vkDestroyCommandPool(device_, pool_, nullptr);
+      vkDestroyDevice(device_, nullptr);
+    }
+    if (instance_) vkDestroyInstance(instance_, nullptr);
+  }
+
+  Status create(const HeadlessOptions& options) {
+    if (Status s = make_instance(options.validate, &messages_, &instance_); !s.ok()) return s;
+    std::vector<VkPhysicalDevice> devices;
+    if (Status s = physical_devices(instance_, &devices); !s.ok()) return s;
+    if (options.device >= static_cast<int>(devices.size())) {
+      return invalid_argument(fmt::format("device is {}; this machine has devices 0 to {}",
+                                          options.device, devices.size() - 1));
+    }
+    std::size_t chosen = 0;
+    while (chosen + 1 < devices.size() && describe(devices[chosen]).software) ++chosen;
+    if (describe(devices[chosen]).software) chosen = 0;
+    if (options.device >= 0) chosen = static_cast<std::size_t>(options.device);
+    physical_ = devices[chosen];
+    info_ = describe(physical_);
+    return make_device();
+  }
+
+  const VulkanDeviceInfo& info() const { return info_; }
+  const std::vector<std::string>& messages() const { return messages_; }
+
+  Status run(const DepthField& field, const MethodSettings& settings, const ImageView<float>& out,
+             HeadlessTimes* times, VulkanFormat format) {
+    const int width = field.depth.width, height = field.depth.height;
+    vulkan::FrameShape shape{.width = width,
+                             .height = height,
+                             .guard_band = field.guard_band,
+                             .depth_kind = field.depth_kind,
+                             .normals = !field.normals.empty(),
+                             .normal_use = field.normal_use,
+                             .frames = 1};
+    vulkan::Recorder recorder;
+    if (Status s = vulkan::Recorder::create({device_, vkGetDeviceProcAddr, VK_NULL_HANDLE},
+                                            settings, shape, &recorder);
+        !s.ok()) {
+      return s;
+    }
+    Resources r(*this);
+    constexpr VkFormat kFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT,
+                                     VK_FORMAT_R32_SFLOAT};
+    const VkImageUsageFlags input = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize pixels = static_cast<VkDeviceSize>(width) * height;
+    Buffer scratch, depth_upload, normal_upload, download;
+    Picture depth, normals, visibility;
+    bool ok = r.image(width, height, VK_FORMAT_R32_SFLOAT, input, &depth) &&
+              r.image(out.width, out.height, kFormats[static_cast<int>(format)],
+                      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, &visibility) &&
+              r.buffer(recorder.scratch_bytes(),
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, false,
+                       &scratch) &&
+              r.buffer(pixels * 4, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, &depth_upload) &&
+              r.buffer(static_cast<VkDeviceSize>(out.width) * out.height * 4,
+                       VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, &download);
+    if (ok && shape.normals) {
+      ok = r.image(width, height, VK_FORMAT_R32G32B32A32_SFLOAT, input, &normals) &&
+           r.buffer(pixels * 16, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, &normal_upload);
+    }
+    if (!ok) return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
+    fill(field, shape.normals, depth_upload, normal_upload);
+    recorder.bind_scratch({scratch.buffer, 0});
+    if (Status s = recorder.bind_images(0, {depth.view, normals.view, visibility.view}); !s.ok()) {
+      return s;
+    }
+    begin();
+    upload(depth_upload, depth);
+    if (shape.normals) upload(normal_upload, normals);
+    transition(visibility.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+               VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+               VK_ACCESS_SHADER_WRITE_BIT);
+    recorder.record_tables(commands_);
+    vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
+    const auto start = std::chrono::steady_clock::now();
+    recorder.record(commands_, 0, {field.camera, field.near_plane, field.far_plane},
+                    {.timestamps = queries_, .first_query = 0});
+    const std::chrono::duration<double, std::micro> recorded =
+        std::chrono::steady_clock::now() - start;
+    fetch(visibility, download);
+    if (Status s = submit(); !s.ok()) return s;
+    read(download, format, out);
+    if (times) report(recorder, recorded.count(), times);
+    return {};
+  }
+
+ private:
+  static constexpr std::uint32_t kQueries = 64;
+
+  struct Buffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    void* mapped = nullptr;
+  };
+  struct Picture {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::uint32_t width = 0, height = 0;
+  };
+
+  // What one run makes, gone at its end.
+  class Resources {
+   public:
+    explicit Resources(Impl& impl) : impl_(impl) {}
+    ~Resources() {
+      for (const Buffer& b : buffers_) {
+        vkDestroyBuffer(impl_.device_, b.buffer, nullptr);
+        vkFreeMemory(impl_.device_, b.memory, nullptr);
+      }
+      for (const Picture& p : pictures_) {
+        vkDestroyImageView(impl_.device_, p.view, nullptr);
+        vkDestroyImage(impl_.device_, p.image, nullptr);
+        vkFreeMemory(impl_.device_, p.memory, nullptr);
+      }
+    }
+
+    bool buffer(VkDeviceSize bytes, VkBufferUsageFlags usage, bool host, Buffer* result) {
+      Buffer& b = buffers_.emplace_back();
+      VkBufferCreateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+      info.size = bytes;
+      info.usage = usage;
+      if (vkCreateBuffer(impl_.device_, &info, nullptr, &b.buffer) != VK_SUCCESS) return false;
+      VkMemoryRequirements needs;
+      vkGetBufferMemoryRequirements(impl_.device_, b.buffer, &needs);
+      if (!impl_.allocate(needs, host, &b.memory) ||
+          vkBindBufferMemory(impl_.device_, b.buffer, b.memory, 0) != VK_SUCCESS) {
+        return false;
+      }
+      if (host &&
+          vkMapMemory(impl_.device_, b.memory, 0, VK_WHOLE_SIZE, 0, &b.mapped) != VK_SUCCESS) {
+        return false;
+      }
+      *result = b;
+      return true;
+    }
+
+    bool image(int width, int height, VkFormat format, VkImageUsageFlags usage, Picture* result) {
+      Picture& p = pictures_.emplace_back();
+      p.width = static_cast<std::uint32_t>(width);
+      p.height = static_cast<std::uint32_t>(height);
+      VkImageCreateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+      info.imageType = VK_IMAGE_TYPE_2D;
+      info.format = format;
+      info.extent = {p.width, p.height, 1};
+      info.mipLevels = info.arrayLayers = 1;
+      info.samples = VK_SAMPLE_COUNT_1_BIT;
+      info.usage = usage;
+      if (vkCreateImage(impl_.device_, &info, nullptr, &p.image) != VK_SUCCESS) return false;
+      VkMemoryRequirements needs;
+      vkGetImageMemoryRequirements(impl_.device_, p.image, &needs);
+      if (!impl_.allocate(needs, false, &p.memory) ||
+          vkBindImageMemory(impl_.device_, p.image, p.memory, 0) != VK_SUCCESS) {
+        return false;
+      }
+      VkImageViewCreateInfo view{};
+      view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+      view.image = p.image;
+      view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+      view.format = format;
+      view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+      if (vkCreateImageView(impl_.device_, &view, nullptr, &p.view) != VK_SUCCESS) return false;
+      *result = p;
+      return true;
+    }
+
+   private:
+    Impl& impl_;
+    std::vector<Buffer> buffers_;
+    std::vector<Picture> pictures_;
+  };
+
+  Status make_device() {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    std::uint32_t family = 0;
+    while (family < count && !(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) ++family;
+    VkPhysicalDeviceFeatures has;
+    vkGetPhysicalDeviceFeatures(physical_, &has);
+    if (family == count || !has.shaderStorageImageWriteWithoutFormat) {
+      return {StatusCode::kUnsupported,
+              fmt::format("{} has no compute queue or no shaderStorageImageWriteWithoutFormat",
+                          info_.name)};
+    }
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkPhysicalDeviceFeatures features{};
+    features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &features;
+    if (VkResult result = vkCreateDevice(physical_, &info, nullptr, &device_);
+        result != VK_SUCCESS) {
+      return failed("vkCreateDevice", result);
+    }
+    vkGetDeviceQueue(device_, family, 0, &queue_);
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    tick_ns_ = properties.limits.timestampPeriod;
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.queueFamilyIndex = family;
+    vkCreateCommandPool(device_, &pool, nullptr, &pool_);
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    vkCreateFence(device_, &fence, nullptr, &fence_);
+    VkQueryPoolCreateInfo queries{};
+    queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    queries.queryCount = kQueries;
+    vkCreateQueryPool(device_, &queries, nullptr, &queries_);
+    VkCommandBufferAllocateInfo commands{};
+    commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands.commandPool = pool_;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands.commandBufferCount = 1;
+    if (!pool_ || !fence_ || !queries_ ||
+        vkAllocateCommandBuffers(device_, &commands, &commands_) != VK_SUCCESS) {
+      return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
+    }
+    return {};
+  }
+
+  bool allocate(const VkMemoryRequirements& needs, bool host, VkDeviceMemory* memory) const {
+    const VkMemoryPropertyFlags wanted =
+        host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+             : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+      if (!(needs.memoryTypeBits & (1u << i)) ||
+          (memory_.memoryTypes[i].propertyFlags & wanted) != wanted) {
+        continue;
+      }
+      VkMemoryAllocateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+      info.allocationSize = needs.size;
+      info.memoryTypeIndex = i;
+      return vkAllocateMemory(device_, &info, nullptr, memory) == VK_SUCCESS;
+    }
+    return false;
+  }
+
+  static void fill(const DepthField& field, bool with_normals, const Buffer& depth,
+                   const Buffer& normals) {
+    auto* d = static_cast<float*>(depth.mapped);
+    auto* n = static_cast<float*>(normals.mapped);
+    for (int y = 0; y < field.depth.height; ++y) {
+      for (int x = 0; x < field.depth.width; ++x) {
+        *d++ = field.depth(x, y);
+        if (!with_normals) continue;
+        for (const auto* view : {&field.normals.x, &field.normals.y, &field.normals.z}) {
+          *n++ = (*view)(x, y);
+        }
+        *n++ = 0;
+      }
+    }
+  }
+
+  void begin() {
+    vkResetCommandPool(device_, pool_, 0);
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    vkBeginCommandBuffer(commands_, &info);
+  }
+
+  void transition(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
+                  VkAccessFlags written, VkPipelineStageFlags after, VkAccessFlags used) {
+    VkImageMemoryBarrier b{};
+    b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    b.srcAccessMask = written;
+    b.dstAccessMask = used;
+    b.oldLayout = from;
+    b.newLayout = to;
+    b.srcQueueFamilyIndex = b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    b.image = image;
+    b.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdPipelineBarrier(commands_, before, after, 0, 0, nullptr, 0, nullptr, 1, &b);
+  }
+
+  void upload(const Buffer& from, const Picture& to) {
+    transition(to.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
+               VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferImageCopy copy = whole(to);
+    vkCmdCopyBufferToImage(commands_, from.buffer, to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           1, &copy);
+    transition(to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+               VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+               VK_ACCESS_SHADER_READ_BIT);
+  }
+
+  void fetch(const Picture& from, const Buffer& to) {
+    transition(from.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+               VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    const VkBufferImageCopy copy = whole(from);
+    vkCmdCopyImageToBuffer(commands_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer,
+                           1, &copy);
+    VkMemoryBarrier b{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
+                      VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
+                         1, &b, 0, nullptr, 0, nullptr);
+  }
+
+  static VkBufferImageCopy whole(const Picture& p) {
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {p.width, p.height, 1};
+    return copy;
+  }
+
+  Status submit() {
+    if (VkResult r = vkEndCommandBuffer(commands_); r != VK_SUCCESS) {
+      return failed("vkEndCommandBuffer", r);
+    }
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    if (VkResult r = vkQueueSubmit(queue_, 1, &info, fence_); r != VK_SUCCESS) {
+      return failed("vkQueueSubmit", r);
+    }
+    const VkResult r = vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
+    vkResetFences(device_, 1, &fence_);
+    return r == VK_SUCCESS ? Status() : failed("vkWaitForFences", r);
+  }
+
+  static float from_half(std::uint16_t h) {
+    const int exponent = (h >> 10) & 31, mantissa = h & 1023;
+    const float value = exponent == 0
+                            ? std::ldexp(static_cast<float>(mantissa), -24)
+                            : std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
+    return h & 0x8000 ? -value : value;
+  }
+
+  static void read(const Buffer& from, VulkanFormat format, const ImageView<float>& out) {
+    const auto* bytes = static_cast<const std::uint8_t*>(from.mapped);
+    for (int y = 0; y < out.height; ++y) {
+      for (int x = 0; x < out.width; ++x) {
+        const std::size_t i = std::size_t(y) * out.width + x;
+        if (format == VulkanFormat::kR8) out(x, y) = static_cast<float>(bytes[i]) / 255;
+        std::uint16_t half;
+        if (format == VulkanFormat::kR16F) {
+          std::memcpy(&half, bytes + 2 * i, 2);
+          out(x, y) = from_half(half);
+        }
+        if (format == VulkanFormat::kR32F) std::memcpy(&out(x, y), bytes + 4 * i, 4);
+      }
+    }
+  }
+
+  void report(const vulkan::Recorder& recorder, double record_us, HeadlessTimes* times) const {
+    const std::size_t count = recorder.pass_names().size();
+    std::vector<std::uint64_t> ticks(count + 1);
+    vkGetQueryPoolResults(device_, queries_, 0, static_cast<std::uint32_t>(count + 1),
+                          ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
+                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    *times = {.record_us = record_us};
+    for (std::size_t i = 0; i < count; ++i) {
+      times->passes.emplace_back(recorder.pass_names()[i],
+                                 static_cast<double>(ticks[i + 1] - ticks[i]) * tick_ns_ * 1e-6);
+    }
+  }
+
+  std::vector<std::string> messages_;
+  VulkanDeviceInfo info_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  double tick_ns_ = 1;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  VkQueryPool queries_ = VK_NULL_HANDLE;
+};
+
+HeadlessVulkan::HeadlessVulkan() = default;
+HeadlessVulkan::~HeadlessVulkan() = default;
+
+Status HeadlessVulkan::create(const HeadlessOptions& options, HeadlessVulkan* vulkan) {
+  auto impl = std::make_unique<Impl>();
+  if (Status s = impl->create(options); !s.ok()) return s;
+  vulkan->impl_ = std::move(impl);
+  return {};
+}
+const VulkanDeviceInfo& HeadlessVulkan::info() const { return impl_->info(); }
+const std::vector<std::string>& HeadlessVulkan::messages() const { return impl_->messages(); }
+Status HeadlessVulkan::run(const DepthField& field, const MethodSettings& settings,
+                           const ImageView<float>& visibility, HeadlessTimes* times,
+                           VulkanFormat format) {
+  return impl_->run(field, settings, visibility, times, format);
+}
+
+}  // namespace obscura::support

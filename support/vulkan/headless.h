@@ -1,0 +1,58 @@
+#ifndef OBSCURA_SUPPORT_VULKAN_HEADLESS_H_
+#define OBSCURA_SUPPORT_VULKAN_HEADLESS_H_
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "obscura/depth_field.h"
+#include "obscura/estimator.h"
+
+// Estimators on a Vulkan device without a window: images in and out of ordinary memory.
+namespace obscura::support {
+
+struct VulkanDeviceInfo {
+  std::string name, driver;
+  bool software = false;
+};
+// Every device that the system's drivers offer, in Vulkan's order.
+Status list_vulkan_devices(std::vector<VulkanDeviceInfo>* devices);
+
+struct HeadlessOptions {
+  int device = -1;  // by its number in the list; -1: the first that is not software, or the first
+  bool validate = false;  // validation layers, core and synchronization
+};
+
+struct HeadlessTimes {
+  double record_us = 0;                                  // of Recorder::record() on the processor
+  std::vector<std::pair<std::string, double>> passes{};  // ms on the device
+};
+
+// Formats of the visibility image.
+enum class VulkanFormat { kR8, kR16F, kR32F };
+
+class HeadlessVulkan {
+ public:
+  HeadlessVulkan();
+  ~HeadlessVulkan();
+
+  static Status create(const HeadlessOptions& options, HeadlessVulkan* vulkan);
+
+  const VulkanDeviceInfo& info() const;
+  // What the validation layers had to say, one line each.
+  const std::vector<std::string>& messages() const;
+
+  // As compute() on the processor, visibility only; `times` may be null.
+  Status run(const DepthField& field, const MethodSettings& settings,
+             const ImageView<float>& visibility, HeadlessTimes* times = nullptr,
+             VulkanFormat format = VulkanFormat::kR32F);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_VULKAN_HEADLESS_H_

@@ -1,0 +1,158 @@
+// Vulkan against the processor, with the validation layers on. A missing driver is a failure: the
+// packages that the tests install bring a software one.
+#include "support/vulkan/headless.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/property/synthetic.h"
+
+namespace obscura {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+class Vulkan : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    vulkan_ = new support::HeadlessVulkan;
+    status_ = support::HeadlessVulkan::create({.validate = true}, vulkan_);
+  }
+  static void TearDownTestSuite() { delete vulkan_; }
+  void SetUp() override { ASSERT_TRUE(status_.ok()) << status_.message(); }
+
+  // Mean difference at most 0.1 %, 99.9 % of the pixels within 1/255, no word from the layers.
+  static void expect_same(const DepthField& field, const MethodSettings& settings,
+                          const std::string& what,
+                          support::VulkanFormat format = support::VulkanFormat::kR32F) {
+    const int w = field.visible_width(), h = field.visible_height();
+    std::vector<float> cpu(std::size_t(w) * h, -1.0f), gpu(cpu);
+    ASSERT_TRUE(compute(field, settings, {.visibility = {cpu.data(), w, h}}).ok()) << what;
+    support::HeadlessTimes times;
+    const Status s = vulkan_->run(field, settings, {gpu.data(), w, h}, &times, format);
+    ASSERT_TRUE(s.ok()) << what << ": " << s.message();
+    double sum = 0;
+    std::size_t close = 0;
+    for (std::size_t i = 0; i < cpu.size(); ++i) {
+      const double difference = std::abs(double{cpu[i]} - gpu[i]);
+      sum += difference;
+      close += difference <= 1.0 / 255;
+    }
+    EXPECT_LE(sum / cpu.size(), 0.001) << what;
+    EXPECT_GE(double(close), 0.999 * cpu.size()) << what;
+    EXPECT_FALSE(times.passes.empty());
+    for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;
+  }
+
+  static inline support::HeadlessVulkan* vulkan_ = nullptr;
+  static inline Status status_;
+};
+
+LineSettings line(float radius) {
+  LineSettings s;
+  s.falloff.radius = radius;
+  s.blur = false;
+  return s;
+}
+
+TEST_F(Vulkan, LineAgreesForEverySetting) {
+  const synthetic::Input in = synthetic::blocks(150, 90, Camera::perspective(1, 150, 90), 3);
+  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kQuadratic}) {
+    for (bool rotate : {false, true}) {
+      for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.3f)}) {
+        for (SphereKind sphere : {SphereKind::kCentered, SphereKind::kTangent}) {
+          LineSettings s = line(0.7f);
+          s.falloff.kind = kind;
+          s.rotate = rotate;
+          s.occluder = occluder;
+          s.sphere = sphere;
+          expect_same(in.field(), s,
+                      "kind " + std::to_string(int(kind)) + " rotate " + std::to_string(rotate) +
+                          " occluder " + std::to_string(int(occluder.kind)) + " sphere " +
+                          std::to_string(int(sphere)));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Vulkan, LineAgreesForEveryNumberOfSamples) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 5);
+  for (int samples : {1, 5, 9, 32}) {
+    LineSettings s = line(1);
+    s.samples = samples;
+    expect_same(in.field(), s, std::to_string(samples));
+  }
+}
+
+TEST_F(Vulkan, OddSizesGuardBandsAndParallelViews) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {33, 65}}) {
+    for (bool orthographic : {false, true}) {
+      synthetic::Input in = synthetic::blocks(
+          w, h,
+          orthographic ? Camera::orthographic_height(4, w, h) : Camera::perspective(1.2f, w, h), 2);
+      if (w > 2 && h > 2) in.guard_band = GuardBand::symmetric(1, 1);
+      expect_same(in.field(), line(1), std::to_string(w) + "x" + std::to_string(h));
+      DepthField without = in.field();
+      without.normal_use = NormalUse::kNone;
+      expect_same(without, line(1), "no normals");
+    }
+  }
+}
+
+TEST_F(Vulkan, GivenNormalsAndEveryKindOfDepth) {
+  const synthetic::Input plane =
+      synthetic::plane(60, 44, Camera::perspective(1, 60, 44), 0.3, 0.4, std::sqrt(0.75), 9);
+  expect_same(plane.field(), line(1), "given normals");
+  synthetic::Input in = synthetic::blocks(60, 44, Camera::perspective(1, 60, 44), 4);
+  const std::vector<float> linear = in.depth;
+  for (DepthKind kind : {DepthKind::kDistance, DepthKind::kNdc, DepthKind::kNdcReversed}) {
+    for (float far_plane : {100.0f, kInf}) {
+      DepthField field = in.field();
+      field.depth_kind = kind;
+      field.near_plane = 0.1f;
+      field.far_plane = far_plane;
+      for (std::size_t i = 0; i < linear.size(); ++i) {
+        const double z = linear[i], n = 0.1, f = far_plane;
+        const double reversed = std::isinf(z)   ? 0
+                                : std::isinf(f) ? n / z
+                                                : n * (f - z) / (z * (f - n));
+        in.depth[i] = static_cast<float>(kind == DepthKind::kDistance ? z
+                                         : kind == DepthKind::kNdc    ? 1 - reversed
+                                                                      : reversed);
+      }
+      expect_same(field, line(1), "kind " + std::to_string(int(kind)));
+    }
+  }
+}
+
+TEST_F(Vulkan, EveryFormatOfVisibility) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 6);
+  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+    expect_same(in.field(), line(1), "format", format);
+  }
+}
+
+TEST_F(Vulkan, WhatCannotRunIsRefused) {
+  const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
+  std::vector<float> out(256);
+  const ImageView<float> view{out.data(), 16, 16};
+  EXPECT_EQ(vulkan_->run(in.field(), FarFieldSettings{}, view).code(), StatusCode::kUnsupported);
+  LineSettings s = line(1);
+  s.blur = true;
+  EXPECT_EQ(vulkan_->run(in.field(), s, view).code(), StatusCode::kUnsupported);
+  s = line(-1);
+  EXPECT_FALSE(vulkan_->run(in.field(), s, view).ok());
+}
+
+TEST(VulkanDevices, AreListed) {
+  std::vector<support::VulkanDeviceInfo> devices;
+  const Status s = support::list_vulkan_devices(&devices);
+  ASSERT_TRUE(s.ok()) << s.message();
+  EXPECT_FALSE(devices.front().name.empty());
+}
+
+}  // namespace
+}  // namespace obscura

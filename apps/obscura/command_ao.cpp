@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/obscura/app.h"
+#include "apps/obscura/backend.h"
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
@@ -17,6 +18,7 @@ namespace {
 struct AoCommand {
   InputOptions input;
   MethodOptions method;
+  BackendOptions backend;
   std::string output, outputs = "visibility", json;
   int threads = 0;
   bool keep_channels = false, half = false;
@@ -59,7 +61,10 @@ Status run_ao(const AoCommand& c, bool quiet) {
   options.progress = [&bar](double share) { return bar(share); };
   std::vector<PassTime> pass_times;
   if (!c.json.empty()) options.pass_times = &pass_times;
-  if (Status s = run_method(settings, input, c.threads, outputs, options); !s.ok()) return s;
+  std::string ran_on;
+  if (Status s = c.backend.run(settings, input, c.threads, outputs, options, &ran_on); !s.ok()) {
+    return s;
+  }
   const double computed = watch.seconds();
 
   support::WriteOptions write;
@@ -75,6 +80,7 @@ Status run_ao(const AoCommand& c, bool quiet) {
   report.settings = to_json(settings);
   report.settings["input"] = c.input.path();
   report.settings["method"] = c.method.method();
+  report.settings["ran_on"] = ran_on;
   const std::string& name = c.method.method();
   if (!outputs.visibility.empty()) report.add(name, "mean visibility", mean(outputs.visibility));
   report.add(name, "time to load", 1e3 * loaded, "ms");
@@ -114,6 +120,7 @@ void add_ao(App& app) {
       ->type_name("LIST");
   c->method.add_to(command, kDefaultMethod);
   c->input.add_to(command);
+  c->backend.add_to(command);
   add_threads_option(command, &c->threads);
   command->add_flag("--keep-channels", c->keep_channels,
                     "Copy the input's other channels and attributes into an EXR result");

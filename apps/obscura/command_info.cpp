@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/obscura/app.h"
+#include "apps/obscura/backend.h"
 #include "apps/obscura/output.h"
 #include "apps/obscura/volume_input.h"
 #include "fmt/format.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct InfoCommand {
   std::string path, json;
+  bool devices = false;
   VolumeInputOptions volume;
 };
 
@@ -36,6 +38,8 @@ Status run_volume_info(const InfoCommand& c) {
 
 Status run_info(const InfoCommand& c) {
   nlohmann::ordered_json description;
+  if (c.devices) return print_devices();
+  if (c.path.empty()) return invalid_argument("FILE is missing; or say --devices");
   if (support::is_volume(c.path)) return run_volume_info(c);
   if (Status s = support::describe_image(c.path, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(support::description_text(description).c_str(), stdout);
@@ -61,8 +65,8 @@ void add_info(App& app) {
   command
       ->add_option("FILE", c->path,
                    "Image: EXR, PFM, PNG or HDR; volume: .nii, .nii.gz, .nrrd, .nhdr, .vdb, .raw")
-      ->required()
       ->type_name("");
+  command->add_flag("--devices", c->devices, "List the machine's Vulkan devices instead");
   c->volume.add_to(command);
   command->add_option("--json", c->json, "Write it as JSON; - is standard output")
       ->type_name("FILE");

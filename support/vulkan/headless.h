@@ -26,7 +26,7 @@ struct HeadlessOptions {
 
 struct HeadlessTimes {
   double record_us = 0;                                  // of Recorder::record() on the processor
-  std::vector<std::pair<std::string, double>> passes{};  // ms on the device
+  std::vector<std::pair<const char*, double>> passes{};  // ms on the device
 };
 
 // Formats of the visibility image.

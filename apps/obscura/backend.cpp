@@ -1,0 +1,97 @@
+#include "apps/obscura/backend.h"
+
+#include "fmt/format.h"
+#ifdef OBSCURA_WITH_VULKAN
+#include "support/vulkan/headless.h"
+#endif
+
+namespace obscura::app {
+namespace {
+
+#ifdef OBSCURA_WITH_VULKAN
+
+bool visibility_alone(const Outputs& o) {
+  return !o.visibility.empty() && o.bent_normal.empty() && o.cone_angle.empty() &&
+         o.uniform_integral.empty() && o.cosine_integral.empty() && o.normal.empty() &&
+         o.standard_error.empty() && o.radiance.empty();
+}
+
+Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings,
+                     const LoadedInput& input, const Outputs& outputs, const RunOptions& options,
+                     std::string* ran_on) {
+  const auto* method = std::get_if<MethodSettings>(&settings);
+  if (!method) return unsupported("the method geometric does not run on Vulkan");
+  if (!visibility_alone(outputs)) return unsupported("on Vulkan the only output is visibility");
+  support::HeadlessVulkan vulkan;
+  if (Status s = support::HeadlessVulkan::create({.device = device}, &vulkan); !s.ok()) return s;
+  if (hardware_only && vulkan.info().software) return unsupported("there is no Vulkan hardware");
+  support::HeadlessTimes times;
+  if (Status s = vulkan.run(input.field(), *method, outputs.visibility, &times); !s.ok()) return s;
+  if (options.pass_times) {
+    for (const auto& [name, ms] : times.passes) options.pass_times->push_back({name, ms});
+  }
+  *ran_on = vulkan.info().name;
+  return {};
+}
+
+#else
+
+Status run_on_vulkan(int, bool, const AnySettings&, const LoadedInput&, const Outputs&,
+                     const RunOptions&, std::string*) {
+  return unsupported("this build has no Vulkan (OBSCURA_WITH_VULKAN)");
+}
+
+#endif
+
+}  // namespace
+
+void BackendOptions::add_to(CLI::App* command) {
+  command
+      ->add_option(
+          "--backend", backend_,
+          "cpu, vulkan (method line so far), or auto: a Vulkan device that is not software "
+          "where the method runs on it [default cpu]")
+      ->type_name("NAME");
+  command
+      ->add_option(
+          "--device", device_,
+          "Vulkan device by its number in `obscura info --devices` [default the first that "
+          "is not software, or the first]")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+}
+
+Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input, int threads,
+                           const Outputs& outputs, const RunOptions& options,
+                           std::string* ran_on) const {
+  if (backend_ != "cpu" && backend_ != "vulkan" && backend_ != "auto") {
+    return invalid_argument(
+        fmt::format("--backend is '{}'; it must be one of cpu, vulkan, auto", backend_));
+  }
+  if (backend_ == "cpu" && device_ >= 0) {
+    return invalid_argument("--device belongs to --backend vulkan or auto");
+  }
+  *ran_on = "cpu";
+  if (backend_ != "cpu") {
+    const bool automatic = backend_ == "auto";
+    const Status s = run_on_vulkan(device_, automatic, settings, input, outputs, options, ran_on);
+    if (s.ok() || !automatic || s.code() != StatusCode::kUnsupported) return s;
+  }
+  return run_method(settings, input, threads, outputs, options);
+}
+
+Status print_devices() {
+#ifdef OBSCURA_WITH_VULKAN
+  std::vector<support::VulkanDeviceInfo> devices;
+  if (Status s = support::list_vulkan_devices(&devices); !s.ok()) return s;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    fmt::print("{}  {}  ({}{})\n", i, devices[i].name, devices[i].driver,
+               devices[i].software ? ", software" : "");
+  }
+  return {};
+#else
+  return unsupported("this build has no Vulkan (OBSCURA_WITH_VULKAN)");
+#endif
+}
+
+}  // namespace obscura::app

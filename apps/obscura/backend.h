@@ -1,0 +1,31 @@
+#ifndef OBSCURA_APPS_OBSCURA_BACKEND_H_
+#define OBSCURA_APPS_OBSCURA_BACKEND_H_
+
+#include <string>
+
+#include "apps/obscura/input.h"
+#include "apps/obscura/methods.h"
+
+namespace obscura::app {
+
+// Where an estimator runs: on the processor, or on a Vulkan device.
+class BackendOptions {
+ public:
+  // Adds --backend and --device.
+  void add_to(CLI::App* command);
+
+  // As run_method(); `ran_on` becomes "cpu" or the device's name.
+  Status run(const AnySettings& settings, const LoadedInput& input, int threads,
+             const Outputs& outputs, const RunOptions& options, std::string* ran_on) const;
+
+ private:
+  std::string backend_ = "cpu";
+  int device_ = -1;
+};
+
+// One line per Vulkan device of this machine.
+Status print_devices();
+
+}  // namespace obscura::app
+
+#endif  // OBSCURA_APPS_OBSCURA_BACKEND_H_

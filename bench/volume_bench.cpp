@@ -147,7 +147,7 @@ void distance(benchmark::State& state) {
   settings.solid = SolidSide::kBelow;
   std::vector<Seconds> times;
   for (auto _ : state) {
-      start_distance(g.view(), settings, g.grid(), *executor);
+    start_distance(g.view(), settings, g.grid(), *executor);
     times.push_back(seconds_of([&] { sweep_eight(g, first, second, *executor); }));
     state.SetIterationTime(times.back().wall);
   }

@@ -17,7 +17,11 @@ rule() {
 }
 
 rooms='core|math|view|screen|directional|filters|lighting|volume|vulkan'
-rule 'public headers include public headers only' '^include/' "($rooms|support|apps|hwy|tbb)/"
+# Vulkan's own headers lie in a folder of the same name as the room.
+rule 'public headers include public headers only' '^include/' \
+  "(${rooms%|vulkan}|support|apps|hwy|tbb)/|vulkan/(program|functions|frame_constants)"
+rule 'only the Vulkan room knows Vulkan' '^(src/(core|math|view|screen|directional|filters|lighting|volume)|apps)/' \
+  '(vulkan/|volk|obscura/vulkan)'
 rule 'the library knows neither files nor the command' '^src/' '(support|apps|CLI|fmt|nlohmann|Imf|Open)'
 rule 'only core starts threads' '^src/(math|view|screen|directional|filters|lighting|volume)/' '(thread>|mutex>|tbb/|future>)'
 rule 'core stands alone' '^src/core/' "(math|view|screen|directional|filters|lighting|volume|vulkan)/"

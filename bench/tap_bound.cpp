@@ -55,28 +55,19 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double tap_bound_seconds(const float* base, int rows, int runs, const RowTaps& taps) {
-  std::vector<double> times;
+double tap_bound_seconds(const float* base, int begin, int end, int runs, const RowTaps& taps) {
   std::vector<std::int32_t> index;
-  for (int run = 0; run < runs; ++run) {
-    double time = 0;
-    for (int row = 0; row < rows; ++row) {
-      index.clear();
-      taps(row, &index);
-      // Making the indices has emptied the caches of what a kernel would find there from the row
-      // before: the first pass brings it back, untimed.
-      float sum = HWY_DYNAMIC_DISPATCH(LoadTaps)(base, index.data(), index.size());
-      const double start = thread_seconds();
-      sum += HWY_DYNAMIC_DISPATCH(LoadTaps)(base, index.data(), index.size());
-      benchmark::DoNotOptimize(sum);
-      const double middle = thread_seconds();
-      // Reading the clock takes time too: taken off.
-      time += (middle - start) - (thread_seconds() - middle);
-    }
-    times.push_back(time);
+  double total = 0;
+  for (int row = begin; row < end; ++row) {
+    index.clear();
+    taps(row, &index);
+    // Making the indices has emptied the caches of what a kernel would find there from the row
+    // before: a first pass brings it back, untimed.
+    total += fastest_seconds(runs, [&] {
+      benchmark::DoNotOptimize(HWY_DYNAMIC_DISPATCH(LoadTaps)(base, index.data(), index.size()));
+    });
   }
-  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-  return times[runs / 2];
+  return total;
 }
 
 }  // namespace obscura::bench

@@ -1,8 +1,10 @@
 #ifndef OBSCURA_BENCH_TAP_BOUND_H_
 #define OBSCURA_BENCH_TAP_BOUND_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace obscura::bench {
@@ -18,10 +20,25 @@ using RowTaps = std::function<void(int row, std::vector<std::int32_t>* index)>;
 // Processor time of this thread: what other programs take of the machine does not count.
 double thread_seconds();
 
-// The least time that any method with these taps needs: median, over `runs`, of the
-// thread_seconds() it takes to load each tap of each row once, lane by lane as the kernels do and
-// with warm caches, on one thread.
-double tap_bound_seconds(const float* base, int rows, int runs, const RowTaps& taps);
+// The fastest of `runs` calls after one that is not timed, in thread_seconds() less what reading
+// the clock takes.
+template <class F>
+double fastest_seconds(int runs, F f) {
+  f();
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < runs; ++run) {
+    const double start = thread_seconds();
+    f();
+    const double middle = thread_seconds();
+    fastest = std::min(fastest, (middle - start) - (thread_seconds() - middle));
+  }
+  return fastest;
+}
+
+// The least time that any method with these taps needs: the thread_seconds() it takes to load each
+// tap of rows [begin, end) once, lane by lane as the kernels do and with warm caches, on one
+// thread. Of each row the fastest of `runs` counts: other programs on the machine only ever add.
+double tap_bound_seconds(const float* base, int begin, int end, int runs, const RowTaps& taps);
 
 }  // namespace obscura::bench
 

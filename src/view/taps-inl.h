@@ -59,8 +59,10 @@ struct Receivers {
     const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
     distance = c.orthographic ? one : z;
     const V max_reach = hn::Set(d, kMaxReach);
-    reach_x = hn::Min(hn::Div(hn::Set(d, f.radius / c.scale_x), distance), max_reach);
-    reach_y = hn::Min(hn::Div(hn::Set(d, f.radius / c.scale_y), distance), max_reach);
+    // One division: it is what a pixel costs most for.
+    const V least = hn::Set(d, 1e-37f), per_distance = hn::Div(one, hn::Max(distance, least));
+    reach_x = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_x), per_distance), max_reach);
+    reach_y = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_y), per_distance), max_reach);
 
     column = hn::Iota(di, x);
     const VI bias = hn::Set(di, kRoundBias);

@@ -80,7 +80,8 @@ class LightTable {
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   }
   static std::array<float, 3> direction(int cell, double a, double b) {
-    const double y = 1 - 2 * (cell / kColumns + a) / kRows;
+    const int row = cell / kColumns;
+    const double y = 1 - 2 * (row + a) / kRows;
     const double s = std::sqrt(std::max(1 - y * y, 0.0));
     const double phi = 2 * kPi * (cell % kColumns + b) / kColumns;
     return {float(s * std::sin(phi)), float(y), float(-s * std::cos(phi))};

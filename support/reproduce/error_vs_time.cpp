@@ -33,6 +33,17 @@ std::vector<Candidate> candidates(const FfaoView& view) {
   for (const int k : {4, 8, 16, 32}) {
     out.push_back({"mipmap", fmt::format("K = {}", k), mipmap_for(view, k)});
   }
+  for (const auto variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    for (const auto& [k, steps] : {std::pair{4, 8}, std::pair{8, 16}, std::pair{16, 32}}) {
+      HorizonSettings s;
+      s.falloff = view.falloff;
+      s.variant = variant;
+      s.directions = k;
+      s.steps = steps;
+      out.push_back({fmt::format("horizon, {}", write_setting(variant)),
+                     fmt::format("{} x {}", k, steps), s});
+    }
+  }
   // Volumetric obscurance answers another question, with a radius of its own: the best of three.
   for (const double scale : {0.5, 1.0, 2.0}) {
     for (const int lines : {5, 9}) {

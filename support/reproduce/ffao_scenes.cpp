@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 
+#include "support/files/files.h"
 #include "support/meshes/load_mesh.h"
 #include "support/reference/geometric.h"
 
 namespace obscura::support {
 namespace {
-
-constexpr int kRuns = 3;
 
 std::string kitchen_of(const std::string& data) { return data + "/meshes/kitchen.ply"; }
 
@@ -72,6 +72,28 @@ Status load_ffao_view(const std::string& name, const std::string& data, ImageSiz
   return s;
 }
 
+Status load_ffao_depth(const std::string& name, const std::string& data, FfaoView* view,
+                       std::vector<float>* truth) {
+  Image depth, known;
+  const std::string stem = data + "/depth/" + name;
+  if (Status s = read_image(stem + ".pfm", &depth); !s.ok()) return s;
+  if (Status s = read_image(stem + ".truth.pfm", &known); !s.ok()) return s;
+  DepthInput& in = view->rendering.gbuffer;
+  in.width = depth.width;
+  in.height = depth.height;
+  in.depth = depth.channels[0].values;
+  in.guard_band = GuardBand::symmetric(64, 36);
+  in.camera.scale_x = in.camera.scale_y = 1 / 311.769f;
+  in.camera.center_u = 0.5f * static_cast<float>(in.width);
+  in.camera.center_v = 0.5f * static_cast<float>(in.height);
+  view->name = "depth/" + name;
+  view->falloff.radius = name == "hall" ? 2.0f : name == "spheres" ? 1.0f : 0.7f;
+  view->width = in.width - 128;
+  view->height = in.height - 72;
+  *truth = known.channels[0].values;
+  return {};
+}
+
 double FfaoRun::pass(const std::string& name) const {
   for (const PassTime& t : pass_times) {
     if (name == t.name) return t.milliseconds;
@@ -80,7 +102,7 @@ double FfaoRun::pass(const std::string& name) const {
 }
 
 Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& executor,
-                FfaoRun* run) {
+                FfaoRun* run, int count) {
   const DepthField field = view.rendering.gbuffer.field();
   const Outputs outputs = visibility_to(view, &run->visibility);
   Estimator estimator;
@@ -93,21 +115,24 @@ Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& 
     std::vector<PassTime> passes;
   };
   std::vector<Timed> runs;
-  for (int i = 0; i <= kRuns; ++i) {
+  std::clock_t processor = 0;
+  for (int i = 0; i <= count; ++i) {
     Timed timed{};
     RunOptions options;
     options.executor = &executor;
     options.pass_times = &timed.passes;
+    if (i == 1) processor = std::clock();
     const auto start = std::chrono::steady_clock::now();
     if (Status s = estimator.run(field, outputs, options); !s.ok()) return s;
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     timed.milliseconds = time.count();
     if (i > 0) runs.push_back(std::move(timed));
   }
-  std::nth_element(runs.begin(), runs.begin() + kRuns / 2, runs.end(),
+  run->processor_ms = 1e3 * static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC / count;
+  std::nth_element(runs.begin(), runs.begin() + count / 2, runs.end(),
                    [](const Timed& a, const Timed& b) { return a.milliseconds < b.milliseconds; });
-  run->milliseconds = runs[kRuns / 2].milliseconds;
-  run->pass_times = runs[kRuns / 2].passes;
+  run->milliseconds = runs[count / 2].milliseconds;
+  run->pass_times = runs[count / 2].passes;
   return {};
 }
 
@@ -138,8 +163,10 @@ Status compare_ffao(const FfaoView& view, const std::vector<float>& visibility,
   const ImageView<const float>& d = field.depth;
   const ImageView<const float> depth(&d(field.guard_band.left, field.guard_band.top), view.width,
                                      view.height, d.row_stride, d.pixel_stride);
-  return compare({visibility.data(), view.width, view.height},
-                 {truth.data(), view.width, view.height}, depth, result);
+  int width = view.width, height = view.height;
+  if (truth.size() < visibility.size()) width /= kSubset.every, height /= kSubset.every;
+  return compare({visibility.data(), view.width, view.height}, {truth.data(), width, height}, depth,
+                 result);
 }
 
 FarFieldSettings far_field_for(const FfaoView& view, int directions, int segments) {

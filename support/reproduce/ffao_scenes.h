@@ -35,16 +35,21 @@ std::vector<std::string> ffao_scenes(const std::string& data);
 Status load_ffao_view(const std::string& name, const std::string& data, ImageSize size,
                       Executor& executor, FfaoView* view);
 
+// A depth image of another making with its truth, DATA/depth/NAME.pfm: hall, spheres or terrain.
+Status load_ffao_depth(const std::string& name, const std::string& data, FfaoView* view,
+                       std::vector<float>* truth);
+
 // What a method gives and what it costs.
 struct FfaoRun {
   std::vector<float> visibility;
   double milliseconds = 0;           // median of some runs, the first left out
+  double processor_ms = 0;           // mean of all threads' time: other programs do not count
   std::vector<PassTime> pass_times;  // of the run with that time
 
   double pass(const std::string& name) const;  // 0 where there is no such pass
 };
 Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& executor,
-                FfaoRun* run);
+                FfaoRun* run, int runs = 3);
 
 // Truths: of the depth field as the occluder says (solid in the paper), and of the world.
 Status trace_depth_field(const FfaoView& view, const TruthGrid& grid, Executor& executor,
@@ -53,6 +58,7 @@ Status trace_world(const FfaoView& view, const TruthGrid& grid, Executor& execut
                    std::vector<float>* truth);
 
 // Over pixels with a surface: the background, which a truth has everywhere, would dilute a subset.
+// `truth` may be smaller than the view, see compare().
 Status compare_ffao(const FfaoView& view, const std::vector<float>& visibility,
                     const std::vector<float>& truth, Comparison* result);
 

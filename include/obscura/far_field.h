@@ -56,8 +56,8 @@ struct FarFieldSettings {
   int interval = 10;                              // [2, 64] B0, pixels
   SlabProfile profile = SlabProfile::kAdaptiveChord;  // slab is the paper's
   int receiver_slope = 1;  // -1, the paper's, or 1: slope at which the second height is taken
-  NearStep near_step{.px = 0.5f};  // px, or adaptive
-  bool near_field = true;          // false: the far field alone
+  NearStep near_step{};    // px, or adaptive
+  bool near_field = true;  // false: the far field alone
   int separable = 1;    // 1, or 3: 3x3 pixels share the far field's directions (K a multiple of 9)
   bool jitter = false;  // turns the segments from pixel to pixel of 3x3 within their width
   bool blur = true;     // selective, 5x5; with separable 3 or jitter

@@ -17,7 +17,7 @@ std::vector<double> near_distances(const NearStep& step, double end) {
     return distances;
   }
   // Adaptive: what a sample subtends shrinks with its distance.
-  for (double t = 0.25; t < end; t += std::max(0.25, 0.15 * t)) distances.push_back(t);
+  for (double t = 0.25; t < end; t += std::max(0.25, 0.07 * t)) distances.push_back(t);
   return distances;
 }
 

@@ -325,13 +325,13 @@ FarFieldSettings with_preset(FarFieldSettings s) {
       s.near_step = NearStep::of(1);
       break;
     case FarFieldPreset::kBalanced:
-      s.directions = 8;
-      s.segments = 2;
-      s.near_step = NearStep::of(1);
+      s.directions = 16;
+      s.segments = 1;
+      s.near_step = NearStep::of(0.5f);
       break;
     case FarFieldPreset::kHigh:
-      s.directions = 24;
-      s.segments = 2;
+      s.directions = 16;
+      s.segments = 3;
       s.near_step = NearStep::of(0.25f);
       break;
   }

@@ -223,15 +223,30 @@ void PlaneTable::look_up(const std::array<float, 3>& normal, const Heights& heig
   u -= static_cast<float>(i);
   v -= static_cast<float>(j);
   const float share[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-  std::fill_n(values, pitch_, 0.0f);
-  for (int corner = 0; corner < 4; ++corner) {
-    const float* at = values_.data() + node(i + (corner & 1), j + (corner >> 1));
-    for (int h = heights.first_; h <= heights.last_; ++h) {
-      const float weight = share[corner] * heights.share_[h];
-      for (int k = 0; k < pitch_; ++k) values[k] += weight * at[h * pitch_ + k];
+  const float* nodes[4];
+  for (int c = 0; c < 4; ++c) nodes[c] = values_.data() + node(i + (c & 1), j + (c >> 1));
+  if (pitch_ == 4) {
+    mix<4>(nodes, share, heights, values);
+  } else if (pitch_ == 8) {
+    mix<8>(nodes, share, heights, values);
+  } else {
+    mix<kRoom>(nodes, share, heights, values);
+  }
+}
+
+template <int kPitch>
+void PlaneTable::mix(const float* const nodes[4], const float share[4], const Heights& heights,
+                     float* values) {
+  float sum[kPitch] = {};
+  for (int h = heights.first_; h <= heights.last_; ++h) {
+    const float weight = heights.share_[h];
+    const float *a = nodes[0] + h * kPitch, *b = nodes[1] + h * kPitch;
+    const float *c = nodes[2] + h * kPitch, *d = nodes[3] + h * kPitch;
+    for (int k = 0; k < kPitch; ++k) {
+      sum[k] += weight * (share[0] * a[k] + share[1] * b[k] + (share[2] * c[k] + share[3] * d[k]));
     }
   }
-  for (int k = 0; k < pitch_; ++k) values[k] = std::max(values[k], 1e-3f);
+  for (int k = 0; k < kPitch; ++k) values[k] = std::max(sum[k], 1e-3f);
 }
 
 float octant_geometry(const std::array<float, 3>& normal, int octant) {

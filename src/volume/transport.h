@@ -49,6 +49,10 @@ class PlaneTable {
 
  private:
   std::size_t node(int column, int row) const;
+  // Values at the heights' mean, between four normals.
+  template <int kPitch>
+  static void mix(const float* const nodes[4], const float share[4], const Heights& heights,
+                  float* values);
 
   int pitch_ = 0;  // floats from height to height
   float per_height_ = 0;

@@ -105,7 +105,7 @@ Status reproduce_sweep_error(const ReproduceContext& context, Report* report, st
     if (Status s = monte_carlo_visibility(scene.grid(), scene.points, mc, truth, run); !s.ok()) {
       return s;
     }
-    std::vector<Panel> panels = {{name + ": Monte Carlo", scene.picture(truth)}};
+    std::vector<Panel> panels = {{name + ": rays", scene.picture(truth)}};
     for (std::size_t t = 0; t < std::size(kTransports); ++t) {
       OcclusionSettings settings;
       settings.transport = kTransports[t];

@@ -10,23 +10,16 @@ namespace {
 
 #ifdef OBSCURA_WITH_VULKAN
 
-bool visibility_alone(const Outputs& o) {
-  return !o.visibility.empty() && o.bent_normal.empty() && o.cone_angle.empty() &&
-         o.uniform_integral.empty() && o.cosine_integral.empty() && o.normal.empty() &&
-         o.standard_error.empty() && o.radiance.empty();
-}
-
 Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings,
                      const LoadedInput& input, const Outputs& outputs, const RunOptions& options,
                      std::string* ran_on) {
   const auto* method = std::get_if<MethodSettings>(&settings);
   if (!method) return unsupported("the method geometric does not run on Vulkan");
-  if (!visibility_alone(outputs)) return unsupported("on Vulkan the only output is visibility");
   support::HeadlessVulkan vulkan;
   if (Status s = support::HeadlessVulkan::create({.device = device}, &vulkan); !s.ok()) return s;
   if (hardware_only && vulkan.info().software) return unsupported("there is no Vulkan hardware");
   support::HeadlessTimes times;
-  if (Status s = vulkan.run(input.field(), *method, outputs.visibility, &times); !s.ok()) return s;
+  if (Status s = vulkan.run(input.field(), *method, outputs, &times); !s.ok()) return s;
   if (options.pass_times) {
     for (const auto& [name, ms] : times.passes) options.pass_times->push_back({name, ms});
   }
@@ -49,8 +42,8 @@ void BackendOptions::add_to(CLI::App* command) {
   command
       ->add_option(
           "--backend", backend_,
-          "cpu, vulkan (method line so far), or auto: a Vulkan device that is not software "
-          "where the method runs on it [default cpu]")
+          "cpu, vulkan, or auto: a Vulkan device that is not software where the method and its "
+          "settings run on it [default cpu]")
       ->type_name("NAME");
   command
       ->add_option(

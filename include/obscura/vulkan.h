@@ -19,6 +19,16 @@ struct Device {
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetDeviceProcAddr get_device_proc_addr = nullptr;
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  // optional
+  // VkPhysicalDeviceLimits::maxStorageBufferRange; what every device has unless more is said.
+  std::uint32_t max_storage_buffer_range = 1u << 27;
+};
+
+// How a bent normal and its cone are stored in FrameImages::bent_normal. Alpha is the cone's half
+// angle divided by pi/2.
+enum class Directions {
+  kNone,
+  kSigned,    // rgb is the bent normal: RGBA16_SFLOAT, RGBA32_SFLOAT, RGBA8_SNORM
+  kUnsigned,  // rgb is half the bent normal plus one half: RGBA8_UNORM
 };
 
 // What stays the same from frame to frame.
@@ -28,6 +38,7 @@ struct FrameShape {
   DepthKind depth_kind = DepthKind::kLinear;
   bool normals = false;  // an image of normals is given; else they come from depth
   NormalUse normal_use = NormalUse::kAuto;
+  Directions directions = Directions::kNone;
   int frames = 2;  // sets of images that may be in flight, 1 to 8
 };
 
@@ -38,6 +49,8 @@ struct FrameImages {
   VkImageView normals = VK_NULL_HANDLE;
   // Visible size; R8_UNORM, R16_SFLOAT or R32_SFLOAT, in GENERAL while recorded work runs.
   VkImageView visibility = VK_NULL_HANDLE;
+  // Visible size, in GENERAL; where FrameShape::directions asks for it.
+  VkImageView bent_normal = VK_NULL_HANDLE;
 };
 
 // What may change with each frame.

@@ -12,29 +12,37 @@ namespace obscura::vulkan {
 // What a pass reads or writes at one binding: an image of the frame, or a region of the scratch
 // memory by its number.
 struct Slot {
-  enum Kind { kRegion, kDepthImage, kNormalImage, kVisibilityImage };
+  enum Kind { kRegion, kDepthImage, kNormalImage, kVisibilityImage, kBentNormalImage };
   Kind kind = kRegion;
   int region = 0;
 
   static Slot of(int region) { return {kRegion, region}; }
   static Slot image(Kind kind) { return {kind, 0}; }
+  bool operator==(const Slot&) const = default;
 };
+
+// A shader's own push constants, after FrameConstants; Vulkan promises room for 128 bytes in all.
+inline constexpr std::size_t kMaxPush = 16;
 
 struct Pass {
-  const char* name;
+  const char* name;  // passes of equal name are one in reports
   std::span<const std::uint32_t> spirv;
-  std::vector<std::uint32_t> constants;  // specialization constants 0, 1, ...; bool as 0 and 1
-  std::vector<Slot> slots;               // binding 0, 1, ...
-  int width, height;                     // invocations; groups are 8x8
+  std::vector<std::uint32_t> constants;   // specialization constants 0, 1, ...; bool as 0 and 1
+  std::vector<Slot> slots;                // binding 0, 1, ...
+  int width = 1, height = 1, layers = 1;  // invocations in x and y, groups in z
+  int group_x = 8, group_y = 8;           // the shader's local_size
+  float radius = 0, thickness = 0;        // in FrameConstants
+  std::vector<std::uint32_t> push{};      // PASS_CONSTANTS of view.glsl, at most kMaxPush
+  bool overlaps = false;  // depends on nothing that the pass before writes: no barrier between
 };
 
-// A method as passes over regions of scratch memory, one after the other.
+// A method as passes over regions of scratch memory, one after the other. Passes whose shader,
+// constants and kinds of slots are equal share a pipeline.
 struct Program {
   std::vector<VkDeviceSize> regions;  // bytes
   std::vector<Pass> passes;
   std::vector<float> tables;  // uploaded once to `table_region`
   int table_region = -1;
-  float radius = 0, thickness = 0;
 
   int add_region(VkDeviceSize bytes) {
     regions.push_back(bytes);
@@ -42,12 +50,20 @@ struct Program {
   }
 };
 
+inline int visible_width(const FrameShape& s) {
+  return s.width - s.guard_band.left - s.guard_band.right;
+}
+inline int visible_height(const FrameShape& s) {
+  return s.height - s.guard_band.top - s.guard_band.bottom;
+}
+
 // The passes that every method begins with: linear depth, then normals where they are wanted.
 struct Geometry {
   int depth = -1, normals = -1;  // regions; normals -1: none
 };
 Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
 
+// In <method>_program.cpp.
 Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program);
 
 }  // namespace obscura::vulkan

@@ -12,17 +12,24 @@ namespace obscura::vulkan {
 namespace {
 
 constexpr VkDeviceSize kAlignment = 256;    // the largest minStorageBufferOffsetAlignment allowed
-constexpr int kGroup = 8;                   // local_size of the shaders
 constexpr VkDeviceSize kMaxUpdate = 65536;  // of vkCmdUpdateBuffer
 
 VkDeviceSize aligned(VkDeviceSize bytes) {
   return (bytes + kAlignment - 1) / kAlignment * kAlignment;
 }
 
+// Of images.
+bool writes(const Slot& slot) {
+  return slot.kind == Slot::kVisibilityImage || slot.kind == Slot::kBentNormalImage;
+}
+
 VkDescriptorType type_of(const Slot& slot) {
   if (slot.kind == Slot::kRegion) return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  return slot.kind == Slot::kVisibilityImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                             : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  return writes(slot) ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+}
+
+bool same_types(const Pass& a, const Pass& b) {
+  return std::ranges::equal(a.slots, b.slots, {}, type_of, type_of);
 }
 
 Status check(const Device& device, const FrameShape& s) {
@@ -44,6 +51,15 @@ Status check(const Device& device, const FrameShape& s) {
   return {};
 }
 
+template <class Settings>
+Status program_of(const Settings& settings, const FrameShape& shape, Program* program) {
+  if constexpr (requires { make_program(settings, shape, program); }) {
+    return make_program(settings, shape, program);
+  } else {
+    return unsupported("this method does not run on Vulkan");
+  }
+}
+
 }  // namespace
 
 class Recorder::Impl {
@@ -51,7 +67,7 @@ class Recorder::Impl {
   Impl(const Device& device, const FrameShape& shape) : device_(device), shape_(shape) {}
   ~Impl() {
     if (pool_) f_.DestroyDescriptorPool(device_.device, pool_, nullptr);
-    for (const Stage& s : stages_) {
+    for (const Pipeline& s : pipelines_) {
       if (s.pipeline) f_.DestroyPipeline(device_.device, s.pipeline, nullptr);
       if (s.layout) f_.DestroyPipelineLayout(device_.device, s.layout, nullptr);
       if (s.set_layout) f_.DestroyDescriptorSetLayout(device_.device, s.set_layout, nullptr);
@@ -66,15 +82,19 @@ class Recorder::Impl {
     }
     program_ = std::move(program);
     for (VkDeviceSize bytes : program_.regions) {
+      if (bytes > device_.max_storage_buffer_range) {
+        return unsupported(text("the image needs a buffer of ", bytes,
+                                " bytes; max_storage_buffer_range is ",
+                                device_.max_storage_buffer_range));
+      }
       offsets_.push_back(scratch_bytes_);
       scratch_bytes_ += aligned(bytes);
     }
-    stages_.resize(program_.passes.size());
-    for (std::size_t i = 0; i < stages_.size(); ++i) {
-      if (!make_stage(program_.passes[i], &stages_[i])) {
+    for (const Pass& pass : program_.passes) {
+      if (!add_stage(pass)) {
         return {StatusCode::kOutOfMemory, "the device could not make a pipeline"};
       }
-      names_.push_back(program_.passes[i].name);
+      names_.push_back(pass.name);
     }
     if (!make_sets()) return {StatusCode::kOutOfMemory, "the device has no descriptors left"};
     return {};
@@ -89,13 +109,14 @@ class Recorder::Impl {
       return invalid_argument(text("frame is ", frame, "; it must be in [0, ", shape_.frames, ")"));
     }
     if (!scratch_.buffer) return invalid_argument("scratch memory must be bound before images");
-    if (!images.depth || !images.visibility || (shape_.normals && !images.normals)) {
-      return invalid_argument("depth, visibility and, if the shape says so, normals must be given");
+    if (!images.depth || !images.visibility || (shape_.normals && !images.normals) ||
+        (shape_.directions != Directions::kNone && !images.bent_normal)) {
+      return invalid_argument(
+          "depth, visibility and, if the shape says so, normals and bent_normal must be given");
     }
-    for (std::size_t i = 0; i < stages_.size(); ++i) {
-      const Pass& pass = program_.passes[i];
-      for (std::size_t b = 0; b < pass.slots.size(); ++b) {
-        write(stages_[i].sets[frame], static_cast<std::uint32_t>(b), pass.slots[b], images);
+    for (const Binding& binding : bindings_) {
+      for (std::size_t b = 0; b < binding.slots.size(); ++b) {
+        write(binding.sets[frame], static_cast<std::uint32_t>(b), binding.slots[b], images);
       }
     }
     return {};
@@ -113,7 +134,7 @@ class Recorder::Impl {
 
   void record(VkCommandBuffer commands, int frame, const FrameView& view,
               const RecordOptions& options) const {
-    const FrameConstants constants = constants_of(view);
+    FrameConstants constants = constants_of(view);
     auto stamp = [&](std::size_t i) {
       if (!options.timestamps) return;
       f_.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, options.timestamps,
@@ -123,31 +144,68 @@ class Recorder::Impl {
             VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     stamp(0);
     for (std::size_t i = 0; i < stages_.size(); ++i) {
-      const Stage& s = stages_[i];
       const Pass& pass = program_.passes[i];
-      if (i > 0) {
+      const Pipeline& p = pipelines_[stages_[i].pipeline];
+      if (i > 0 && !pass.overlaps) {
         barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
       }
-      f_.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s.pipeline);
-      f_.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s.layout, 0, 1,
-                               &s.sets[frame], 0, nullptr);
-      f_.CmdPushConstants(commands, s.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+      f_.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.pipeline);
+      f_.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.layout, 0, 1,
+                               &bindings_[stages_[i].binding].sets[frame], 0, nullptr);
+      constants.radius = pass.radius;
+      constants.thickness = pass.thickness;
+      f_.CmdPushConstants(commands, p.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                           &constants);
-      f_.CmdDispatch(commands, (pass.width + kGroup - 1) / kGroup,
-                     (pass.height + kGroup - 1) / kGroup, 1);
+      if (!pass.push.empty()) {
+        f_.CmdPushConstants(commands, p.layout, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(constants),
+                            push_bytes(pass), pass.push.data());
+      }
+      f_.CmdDispatch(commands, groups(pass.width, pass.group_x), groups(pass.height, pass.group_y),
+                     static_cast<std::uint32_t>(pass.layers));
       stamp(i + 1);
     }
   }
 
  private:
-  struct Stage {
+  struct Pipeline {
+    const Pass* made_for = nullptr;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> sets;  // one per frame
+  };
+  struct Binding {
+    std::size_t pipeline;
+    std::vector<Slot> slots;
+    std::vector<VkDescriptorSet> sets{};  // one per frame
+  };
+  struct Stage {
+    std::size_t pipeline, binding;
   };
 
-  bool make_stage(const Pass& pass, Stage* stage) {
+  static std::uint32_t groups(int invocations, int group) {
+    return static_cast<std::uint32_t>((invocations + group - 1) / group);
+  }
+  static std::uint32_t push_bytes(const Pass& pass) {
+    return static_cast<std::uint32_t>(pass.push.size() * sizeof(std::uint32_t));
+  }
+
+  bool add_stage(const Pass& pass) {
+    const auto p = std::ranges::find_if(pipelines_, [&](const Pipeline& other) {
+      return other.made_for->spirv.data() == pass.spirv.data() &&
+             other.made_for->constants == pass.constants && same_types(*other.made_for, pass);
+    });
+    const auto pipeline = static_cast<std::size_t>(p - pipelines_.begin());
+    if (p == pipelines_.end() && !make_pipeline(pass, &pipelines_.emplace_back())) return false;
+    const auto b = std::ranges::find_if(bindings_, [&](const Binding& other) {
+      return other.pipeline == pipeline && other.slots == pass.slots;
+    });
+    stages_.push_back({pipeline, static_cast<std::size_t>(b - bindings_.begin())});
+    if (b == bindings_.end()) bindings_.push_back({pipeline, pass.slots});
+    return true;
+  }
+
+  bool make_pipeline(const Pass& pass, Pipeline* stage) {
+    stage->made_for = &pass;
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Slot& slot : pass.slots) {
       bindings.push_back({.binding = static_cast<std::uint32_t>(bindings.size()),
@@ -164,7 +222,9 @@ class Recorder::Impl {
         VK_SUCCESS) {
       return false;
     }
-    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(FrameConstants)};
+    const VkPushConstantRange range{
+        VK_SHADER_STAGE_COMPUTE_BIT, 0,
+        static_cast<std::uint32_t>(sizeof(FrameConstants)) + push_bytes(pass)};
     VkPipelineLayoutCreateInfo layout_info{};
     layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     layout_info.setLayoutCount = 1;
@@ -175,10 +235,10 @@ class Recorder::Impl {
         VK_SUCCESS) {
       return false;
     }
-    return make_pipeline(pass, stage);
+    return compile(pass, stage);
   }
 
-  bool make_pipeline(const Pass& pass, Stage* stage) {
+  bool compile(const Pass& pass, Pipeline* stage) {
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     module_info.codeSize = pass.spirv.size_bytes();
@@ -215,8 +275,8 @@ class Recorder::Impl {
     constexpr VkDescriptorType kTypes[] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                            VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                                            VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
-    for (const Pass& pass : program_.passes) {
-      for (const Slot& slot : pass.slots) {
+    for (const Binding& binding : bindings_) {
+      for (const Slot& slot : binding.slots) {
         for (int t = 0; t < 3; ++t) count[t] += type_of(slot) == kTypes[t] ? frames : 0;
       }
     }
@@ -226,25 +286,39 @@ class Recorder::Impl {
     }
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = frames * static_cast<std::uint32_t>(stages_.size());
+    pool_info.maxSets = frames * static_cast<std::uint32_t>(bindings_.size());
     pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     pool_info.pPoolSizes = sizes.data();
     if (f_.CreateDescriptorPool(device_.device, &pool_info, nullptr, &pool_) != VK_SUCCESS) {
       return false;
     }
-    for (Stage& s : stages_) {
-      const std::vector<VkDescriptorSetLayout> layouts(frames, s.set_layout);
-      s.sets.resize(frames);
+    for (Binding& binding : bindings_) {
+      const std::vector<VkDescriptorSetLayout> layouts(frames,
+                                                       pipelines_[binding.pipeline].set_layout);
+      binding.sets.resize(frames);
       VkDescriptorSetAllocateInfo info{};
       info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
       info.descriptorPool = pool_;
       info.descriptorSetCount = frames;
       info.pSetLayouts = layouts.data();
-      if (f_.AllocateDescriptorSets(device_.device, &info, s.sets.data()) != VK_SUCCESS) {
+      if (f_.AllocateDescriptorSets(device_.device, &info, binding.sets.data()) != VK_SUCCESS) {
         return false;
       }
     }
     return true;
+  }
+
+  static VkImageView view_of(const Slot& slot, const FrameImages& images) {
+    switch (slot.kind) {
+      case Slot::kNormalImage:
+        return images.normals;
+      case Slot::kVisibilityImage:
+        return images.visibility;
+      case Slot::kBentNormalImage:
+        return images.bent_normal;
+      default:
+        return images.depth;
+    }
   }
 
   void write(VkDescriptorSet set, std::uint32_t binding, const Slot& slot,
@@ -262,12 +336,9 @@ class Recorder::Impl {
                 program_.regions[slot.region]};
       w.pBufferInfo = &buffer;
     } else {
-      const bool output = slot.kind == Slot::kVisibilityImage;
-      image.imageView = output                            ? images.visibility
-                        : slot.kind == Slot::kNormalImage ? images.normals
-                                                          : images.depth;
+      image.imageView = view_of(slot, images);
       image.imageLayout =
-          output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+          writes(slot) ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
       w.pImageInfo = &image;
     }
     f_.UpdateDescriptorSets(device_.device, 1, &w, 0, nullptr);
@@ -288,8 +359,8 @@ class Recorder::Impl {
             .near_plane = v.near_plane,
             .far_plane = v.far_plane,
             .orthographic = v.camera.orthographic,
-            .radius = program_.radius,
-            .thickness = program_.thickness};
+            .radius = 0,
+            .thickness = 0};
   }
 
   void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written) const {
@@ -306,7 +377,9 @@ class Recorder::Impl {
   std::vector<VkDeviceSize> offsets_;
   VkDeviceSize scratch_bytes_ = 0;
   Scratch scratch_;
-  std::vector<Stage> stages_;
+  std::vector<Pipeline> pipelines_;
+  std::vector<Binding> bindings_;
+  std::vector<Stage> stages_;  // one per pass
   std::vector<const char*> names_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
 };
@@ -321,9 +394,11 @@ Status Recorder::create(const Device& device, const MethodSettings& settings,
   if (Status s = check(device, shape); !s.ok()) return s;
   try {
     Program program;
-    const auto* line = std::get_if<LineSettings>(&settings);
-    if (!line) return unsupported("this method does not run on Vulkan yet; line does");
-    if (Status s = make_program(*line, shape, &program); !s.ok()) return s;
+    if (Status s =
+            std::visit([&](const auto& m) { return program_of(m, shape, &program); }, settings);
+        !s.ok()) {
+      return s;
+    }
     auto impl = std::make_unique<Impl>(device, shape);
     if (Status s = impl->create(std::move(program)); !s.ok()) return s;
     recorder->impl_ = std::move(impl);

@@ -3,6 +3,7 @@
 
 #include <volk.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -138,54 +139,57 @@ class HeadlessVulkan::Impl {
   const VulkanDeviceInfo& info() const { return info_; }
   const std::vector<std::string>& messages() const { return messages_; }
 
-  Status run(const DepthField& field, const MethodSettings& settings, const ImageView<float>& out,
-             HeadlessTimes* times, VulkanFormat format) {
-    const int width = field.depth.width, height = field.depth.height;
-    vulkan::FrameShape shape{.width = width,
-                             .height = height,
-                             .guard_band = field.guard_band,
-                             .depth_kind = field.depth_kind,
-                             .normals = !field.normals.empty(),
-                             .normal_use = field.normal_use,
-                             .frames = 1};
+  Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
+             HeadlessTimes* times, const HeadlessFormats& formats) {
+    if (Status s = check(outputs); !s.ok()) return s;
+    const int width = field.visible_width(), height = field.visible_height();
+    const bool directions = !outputs.bent_normal.empty() || !outputs.cone_angle.empty();
+    const vulkan::FrameShape shape{.width = field.depth.width,
+                                   .height = field.depth.height,
+                                   .guard_band = field.guard_band,
+                                   .depth_kind = field.depth_kind,
+                                   .normals = !field.normals.empty(),
+                                   .normal_use = field.normal_use,
+                                   .directions = !directions ? vulkan::Directions::kNone
+                                                 : formats.output == VulkanFormat::kR8
+                                                     ? vulkan::Directions::kUnsigned
+                                                     : vulkan::Directions::kSigned,
+                                   .frames = 1};
     vulkan::Recorder recorder;
-    if (Status s = vulkan::Recorder::create({device_, vkGetDeviceProcAddr, VK_NULL_HANDLE},
-                                            settings, shape, &recorder);
+    if (Status s = vulkan::Recorder::create(
+            {device_, vkGetDeviceProcAddr, VK_NULL_HANDLE, max_storage_buffer_range_}, settings,
+            shape, &recorder);
         !s.ok()) {
       return s;
     }
+    if (recorder.pass_names().size() >= kQueries) return unsupported("too many passes to time");
     Resources r(*this);
-    constexpr VkFormat kFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT,
-                                     VK_FORMAT_R32_SFLOAT};
-    const VkImageUsageFlags input = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    const VkDeviceSize pixels = static_cast<VkDeviceSize>(width) * height;
-    Buffer scratch, depth_upload, normal_upload, download;
-    Picture depth, normals, visibility;
-    bool ok = r.image(width, height, VK_FORMAT_R32_SFLOAT, input, &depth) &&
-              r.image(out.width, out.height, kFormats[static_cast<int>(format)],
-                      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, &visibility) &&
-              r.buffer(recorder.scratch_bytes(),
-                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, false,
-                       &scratch) &&
-              r.buffer(pixels * 4, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, &depth_upload) &&
-              r.buffer(static_cast<VkDeviceSize>(out.width) * out.height * 4,
-                       VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, &download);
-    if (ok && shape.normals) {
-      ok = r.image(width, height, VK_FORMAT_R32G32B32A32_SFLOAT, input, &normals) &&
-           r.buffer(pixels * 16, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, &normal_upload);
-    }
+    Buffer scratch;
+    Input depth, normals;
+    Output visibility, bent_normal;
+    const bool ok =
+        r.buffer(recorder.scratch_bytes(),
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, false,
+                 &scratch) &&
+        r.input(shape.width, shape.height,
+                formats.depth_buffer ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, &depth) &&
+        (!shape.normals ||
+         r.input(shape.width, shape.height, VK_FORMAT_R32G32B32A32_SFLOAT, &normals)) &&
+        r.output(width, height, formats.output, 1, &visibility) &&
+        (!directions || r.output(width, height, formats.output, 4, &bent_normal));
     if (!ok) return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
-    fill(field, shape.normals, depth_upload, normal_upload);
+    fill(field, shape.normals, depth.upload, normals.upload);
     recorder.bind_scratch({scratch.buffer, 0});
-    if (Status s = recorder.bind_images(0, {depth.view, normals.view, visibility.view}); !s.ok()) {
+    if (Status s = recorder.bind_images(0, {depth.picture.view, normals.picture.view,
+                                            visibility.picture.view, bent_normal.picture.view});
+        !s.ok()) {
       return s;
     }
     begin();
-    upload(depth_upload, depth);
-    if (shape.normals) upload(normal_upload, normals);
-    transition(visibility.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
-               VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-               VK_ACCESS_SHADER_WRITE_BIT);
+    upload(depth);
+    if (shape.normals) upload(normals);
+    make_writable(visibility);
+    if (directions) make_writable(bent_normal);
     recorder.record_tables(commands_);
     vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
     const auto start = std::chrono::steady_clock::now();
@@ -193,15 +197,23 @@ class HeadlessVulkan::Impl {
                     {.timestamps = queries_, .first_query = 0});
     const std::chrono::duration<double, std::micro> recorded =
         std::chrono::steady_clock::now() - start;
-    fetch(visibility, download);
+    fetch(visibility);
+    if (directions) fetch(bent_normal);
     if (Status s = submit(); !s.ok()) return s;
-    read(download, format, out);
+    read(visibility, 0, 1, 0, outputs.visibility);
+    const bool unsigned_range = formats.output == VulkanFormat::kR8;
+    const ImageView<float>* vector[] = {&outputs.bent_normal.x, &outputs.bent_normal.y,
+                                        &outputs.bent_normal.z};
+    for (int c = 0; c < 3; ++c) {
+      read(bent_normal, c, unsigned_range ? 2.0f : 1.0f, unsigned_range ? -1.0f : 0.0f, *vector[c]);
+    }
+    read(bent_normal, 3, 1.57079633f, 0, outputs.cone_angle);
     if (times) report(recorder, recorded.count(), times);
     return {};
   }
 
  private:
-  static constexpr std::uint32_t kQueries = 64;
+  static constexpr std::uint32_t kQueries = 1024;
 
   struct Buffer {
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -213,7 +225,27 @@ class HeadlessVulkan::Impl {
     VkImageView view = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     std::uint32_t width = 0, height = 0;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
   };
+  struct Input {
+    Picture picture;
+    Buffer upload;
+  };
+  struct Output {
+    Picture picture;
+    Buffer download;
+    VulkanFormat format = VulkanFormat::kR32F;
+    int channels = 1;
+  };
+
+  static Status check(const Outputs& o) {
+    if (o.visibility.empty()) return invalid_argument("on Vulkan visibility is always written");
+    if (!o.uniform_integral.empty() || !o.cosine_integral.empty() || !o.normal.empty() ||
+        !o.standard_error.empty() || !o.radiance.empty()) {
+      return unsupported("on Vulkan the outputs are visibility, bent-normal and cone-angle");
+    }
+    return {};
+  }
 
   // What one run makes, gone at its end.
   class Resources {
@@ -256,6 +288,7 @@ class HeadlessVulkan::Impl {
       Picture& p = pictures_.emplace_back();
       p.width = static_cast<std::uint32_t>(width);
       p.height = static_cast<std::uint32_t>(height);
+      if (format == VK_FORMAT_D32_SFLOAT) p.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
       VkImageCreateInfo info{};
       info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
       info.imageType = VK_IMAGE_TYPE_2D;
@@ -276,10 +309,32 @@ class HeadlessVulkan::Impl {
       view.image = p.image;
       view.viewType = VK_IMAGE_VIEW_TYPE_2D;
       view.format = format;
-      view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+      view.subresourceRange = {p.aspect, 0, 1, 0, 1};
       if (vkCreateImageView(impl_.device_, &view, nullptr, &p.view) != VK_SUCCESS) return false;
       *result = p;
       return true;
+    }
+
+    bool input(int width, int height, VkFormat format, Input* result) {
+      const VkDeviceSize texel = format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : 4;
+      return image(width, height, format,
+                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                   &result->picture) &&
+             buffer(texel * width * height, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true,
+                    &result->upload);
+    }
+
+    bool output(int width, int height, VulkanFormat format, int channels, Output* result) {
+      constexpr VkFormat kFormats[][3] = {
+          {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT},
+          {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}};
+      result->format = format;
+      result->channels = channels;
+      return image(width, height, kFormats[channels == 4][static_cast<int>(format)],
+                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                   &result->picture) &&
+             buffer(static_cast<VkDeviceSize>(4) * channels * width * height,
+                    VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, &result->download);
     }
 
    private:
@@ -324,6 +379,7 @@ class HeadlessVulkan::Impl {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical_, &properties);
     tick_ns_ = properties.limits.timestampPeriod;
+    max_storage_buffer_range_ = properties.limits.maxStorageBufferRange;
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.queueFamilyIndex = family;
@@ -390,8 +446,9 @@ class HeadlessVulkan::Impl {
     vkBeginCommandBuffer(commands_, &info);
   }
 
-  void transition(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
-                  VkAccessFlags written, VkPipelineStageFlags after, VkAccessFlags used) {
+  void transition(const Picture& picture, VkImageLayout from, VkImageLayout to,
+                  VkPipelineStageFlags before, VkAccessFlags written, VkPipelineStageFlags after,
+                  VkAccessFlags used) {
     VkImageMemoryBarrier b{};
     b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
     b.srcAccessMask = written;
@@ -399,31 +456,38 @@ class HeadlessVulkan::Impl {
     b.oldLayout = from;
     b.newLayout = to;
     b.srcQueueFamilyIndex = b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    b.image = image;
-    b.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    b.image = picture.image;
+    b.subresourceRange = {picture.aspect, 0, 1, 0, 1};
     vkCmdPipelineBarrier(commands_, before, after, 0, 0, nullptr, 0, nullptr, 1, &b);
   }
 
-  void upload(const Buffer& from, const Picture& to) {
-    transition(to.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+  void upload(const Input& input) {
+    const Picture& to = input.picture;
+    transition(to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
                VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkBufferImageCopy copy = whole(to);
-    vkCmdCopyBufferToImage(commands_, from.buffer, to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                           1, &copy);
-    transition(to.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-               VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-               VK_ACCESS_SHADER_READ_BIT);
+    vkCmdCopyBufferToImage(commands_, input.upload.buffer, to.image,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    transition(to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
   }
 
-  void fetch(const Picture& from, const Buffer& to) {
-    transition(from.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+  void make_writable(const Output& output) {
+    transition(output.picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+               VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+               VK_ACCESS_SHADER_WRITE_BIT);
+  }
+
+  void fetch(const Output& output) {
+    const Picture& from = output.picture;
+    transition(from, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
     const VkBufferImageCopy copy = whole(from);
-    vkCmdCopyImageToBuffer(commands_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer,
-                           1, &copy);
+    vkCmdCopyImageToBuffer(commands_, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           output.download.buffer, 1, &copy);
     VkMemoryBarrier b{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
                       VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
@@ -432,7 +496,7 @@ class HeadlessVulkan::Impl {
 
   static VkBufferImageCopy whole(const Picture& p) {
     VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageSubresource = {p.aspect, 0, 0, 1};
     copy.imageExtent = {p.width, p.height, 1};
     return copy;
   }
@@ -461,18 +525,21 @@ class HeadlessVulkan::Impl {
     return h & 0x8000 ? -value : value;
   }
 
-  static void read(const Buffer& from, VulkanFormat format, const ImageView<float>& out) {
-    const auto* bytes = static_cast<const std::uint8_t*>(from.mapped);
+  // Channel `c` of an image, scaled and moved, if anybody wants it.
+  static void read(const Output& from, int c, float scale, float offset,
+                   const ImageView<float>& out) {
+    const auto* bytes = static_cast<const std::uint8_t*>(from.download.mapped);
     for (int y = 0; y < out.height; ++y) {
       for (int x = 0; x < out.width; ++x) {
-        const std::size_t i = std::size_t(y) * out.width + x;
-        if (format == VulkanFormat::kR8) out(x, y) = static_cast<float>(bytes[i]) / 255;
+        const std::size_t i = (std::size_t(y) * out.width + x) * from.channels + c;
+        float value = static_cast<float>(bytes[i]) / 255;
         std::uint16_t half;
-        if (format == VulkanFormat::kR16F) {
+        if (from.format == VulkanFormat::kR16F) {
           std::memcpy(&half, bytes + 2 * i, 2);
-          out(x, y) = from_half(half);
+          value = from_half(half);
         }
-        if (format == VulkanFormat::kR32F) std::memcpy(&out(x, y), bytes + 4 * i, 4);
+        if (from.format == VulkanFormat::kR32F) std::memcpy(&value, bytes + 4 * i, 4);
+        out(x, y) = value * scale + offset;
       }
     }
   }
@@ -485,8 +552,12 @@ class HeadlessVulkan::Impl {
                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     *times = {.record_us = record_us};
     for (std::size_t i = 0; i < count; ++i) {
-      times->passes.emplace_back(recorder.pass_names()[i],
-                                 static_cast<double>(ticks[i + 1] - ticks[i]) * tick_ns_ * 1e-6);
+      const std::string_view name = recorder.pass_names()[i];
+      auto pass = std::ranges::find_if(times->passes, [&](auto& p) { return p.first == name; });
+      if (pass == times->passes.end()) {
+        pass = times->passes.insert(pass, {recorder.pass_names()[i], 0.0});
+      }
+      pass->second += static_cast<double>(ticks[i + 1] - ticks[i]) * tick_ns_ * 1e-6;
     }
   }
 
@@ -496,6 +567,7 @@ class HeadlessVulkan::Impl {
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_{};
   double tick_ns_ = 1;
+  std::uint32_t max_storage_buffer_range_ = 0;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;
@@ -516,9 +588,9 @@ Status HeadlessVulkan::create(const HeadlessOptions& options, HeadlessVulkan* vu
 const VulkanDeviceInfo& HeadlessVulkan::info() const { return impl_->info(); }
 const std::vector<std::string>& HeadlessVulkan::messages() const { return impl_->messages(); }
 Status HeadlessVulkan::run(const DepthField& field, const MethodSettings& settings,
-                           const ImageView<float>& visibility, HeadlessTimes* times,
-                           VulkanFormat format) {
-  return impl_->run(field, settings, visibility, times, format);
+                           const Outputs& outputs, HeadlessTimes* times,
+                           const HeadlessFormats& formats) {
+  return impl_->run(field, settings, outputs, times, formats);
 }
 
 }  // namespace obscura::support

@@ -26,11 +26,15 @@ struct HeadlessOptions {
 
 struct HeadlessTimes {
   double record_us = 0;                                  // of Recorder::record() on the processor
-  std::vector<std::pair<const char*, double>> passes{};  // ms on the device
+  std::vector<std::pair<const char*, double>> passes{};  // ms on the device; equal names as one
 };
 
-// Formats of the visibility image.
-enum class VulkanFormat { kR8, kR16F, kR32F };
+// Formats of the images.
+enum class VulkanFormat { kR8, kR16F, kR32F };  // and RGBA for the bent normal; 8 bits are UNORM
+struct HeadlessFormats {
+  VulkanFormat output = VulkanFormat::kR32F;
+  bool depth_buffer = false;  // depth as D32_SFLOAT, not R32_SFLOAT
+};
 
 class HeadlessVulkan {
  public:
@@ -43,10 +47,9 @@ class HeadlessVulkan {
   // What the validation layers had to say, one line each.
   const std::vector<std::string>& messages() const;
 
-  // As compute() on the processor, visibility only; `times` may be null.
-  Status run(const DepthField& field, const MethodSettings& settings,
-             const ImageView<float>& visibility, HeadlessTimes* times = nullptr,
-             VulkanFormat format = VulkanFormat::kR32F);
+  // As compute() on the processor: visibility, bent normal and cone angle; `times` may be null.
+  Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
+             HeadlessTimes* times = nullptr, const HeadlessFormats& formats = {});
 
  private:
   class Impl;

@@ -1,54 +1,11 @@
-// Vulkan against the processor, with the validation layers on. A missing driver is a failure: the
-// packages that the tests install bring a software one.
-#include "support/vulkan/headless.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "tests/property/synthetic.h"
+#include "tests/conformance/vulkan_fixture.h"
 
 namespace obscura {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-class Vulkan : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    vulkan_ = new support::HeadlessVulkan;
-    status_ = support::HeadlessVulkan::create({.validate = true}, vulkan_);
-  }
-  static void TearDownTestSuite() { delete vulkan_; }
-  void SetUp() override { ASSERT_TRUE(status_.ok()) << status_.message(); }
-
-  // Mean difference at most 0.1 %, 99.9 % of the pixels within 1/255, no word from the layers.
-  static void expect_same(const DepthField& field, const MethodSettings& settings,
-                          const std::string& what,
-                          support::VulkanFormat format = support::VulkanFormat::kR32F) {
-    const int w = field.visible_width(), h = field.visible_height();
-    std::vector<float> cpu(std::size_t(w) * h, -1.0f), gpu(cpu);
-    ASSERT_TRUE(compute(field, settings, {.visibility = {cpu.data(), w, h}}).ok()) << what;
-    support::HeadlessTimes times;
-    const Status s = vulkan_->run(field, settings, {gpu.data(), w, h}, &times, format);
-    ASSERT_TRUE(s.ok()) << what << ": " << s.message();
-    double sum = 0;
-    std::size_t close = 0;
-    for (std::size_t i = 0; i < cpu.size(); ++i) {
-      const double difference = std::abs(double{cpu[i]} - gpu[i]);
-      sum += difference;
-      close += difference <= 1.0 / 255;
-    }
-    EXPECT_LE(sum / cpu.size(), 0.001) << what;
-    EXPECT_GE(double(close), 0.999 * cpu.size()) << what;
-    EXPECT_FALSE(times.passes.empty());
-    for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;
-  }
-
-  static inline support::HeadlessVulkan* vulkan_ = nullptr;
-  static inline Status status_;
-};
+using VulkanLine = VulkanTest;
 
 LineSettings line(float radius) {
   LineSettings s;
@@ -57,7 +14,7 @@ LineSettings line(float radius) {
   return s;
 }
 
-TEST_F(Vulkan, LineAgreesForEverySetting) {
+TEST_F(VulkanLine, AgreesForEverySetting) {
   const synthetic::Input in = synthetic::blocks(150, 90, Camera::perspective(1, 150, 90), 3);
   for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kQuadratic}) {
     for (bool rotate : {false, true}) {
@@ -78,7 +35,7 @@ TEST_F(Vulkan, LineAgreesForEverySetting) {
   }
 }
 
-TEST_F(Vulkan, LineAgreesForEveryNumberOfSamples) {
+TEST_F(VulkanLine, AgreesForEveryNumberOfSamples) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 5);
   for (int samples : {1, 5, 9, 32}) {
     LineSettings s = line(1);
@@ -87,7 +44,7 @@ TEST_F(Vulkan, LineAgreesForEveryNumberOfSamples) {
   }
 }
 
-TEST_F(Vulkan, OddSizesGuardBandsAndParallelViews) {
+TEST_F(VulkanLine, OddSizesGuardBandsAndParallelViews) {
   for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {33, 65}}) {
     for (bool orthographic : {false, true}) {
       synthetic::Input in = synthetic::blocks(
@@ -102,7 +59,7 @@ TEST_F(Vulkan, OddSizesGuardBandsAndParallelViews) {
   }
 }
 
-TEST_F(Vulkan, GivenNormalsAndEveryKindOfDepth) {
+TEST_F(VulkanLine, GivenNormalsAndEveryKindOfDepth) {
   const synthetic::Input plane =
       synthetic::plane(60, 44, Camera::perspective(1, 60, 44), 0.3, 0.4, std::sqrt(0.75), 9);
   expect_same(plane.field(), line(1), "given normals");
@@ -123,35 +80,34 @@ TEST_F(Vulkan, GivenNormalsAndEveryKindOfDepth) {
                                          : kind == DepthKind::kNdc    ? 1 - reversed
                                                                       : reversed);
       }
-      expect_same(field, line(1), "kind " + std::to_string(int(kind)));
+      for (bool depth_buffer : {false, true}) {
+        if (depth_buffer && kind == DepthKind::kDistance) continue;  // D32 holds [0, 1]
+        expect_same(field, line(1), "kind " + std::to_string(int(kind)), false,
+                    {.depth_buffer = depth_buffer});
+      }
     }
   }
 }
 
-TEST_F(Vulkan, EveryFormatOfVisibility) {
+TEST_F(VulkanLine, EveryFormatOfVisibility) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 6);
   for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
-    expect_same(in.field(), line(1), "format", format);
+    expect_same(in.field(), line(1), "format", false, {.output = format});
   }
 }
 
-TEST_F(Vulkan, WhatCannotRunIsRefused) {
+TEST_F(VulkanLine, WhatCannotRunIsRefused) {
   const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
   std::vector<float> out(256);
   const ImageView<float> view{out.data(), 16, 16};
-  EXPECT_EQ(vulkan_->run(in.field(), FarFieldSettings{}, view).code(), StatusCode::kUnsupported);
+  EXPECT_EQ(vulkan_->run(in.field(), ReferenceSettings{}, {.visibility = view}).code(),
+            StatusCode::kUnsupported);
+  EXPECT_FALSE(vulkan_->run(in.field(), line(1), {}).ok());
   LineSettings s = line(1);
   s.blur = true;
-  EXPECT_EQ(vulkan_->run(in.field(), s, view).code(), StatusCode::kUnsupported);
+  EXPECT_EQ(vulkan_->run(in.field(), s, {.visibility = view}).code(), StatusCode::kUnsupported);
   s = line(-1);
-  EXPECT_FALSE(vulkan_->run(in.field(), s, view).ok());
-}
-
-TEST(VulkanDevices, AreListed) {
-  std::vector<support::VulkanDeviceInfo> devices;
-  const Status s = support::list_vulkan_devices(&devices);
-  ASSERT_TRUE(s.ok()) << s.message();
-  EXPECT_FALSE(devices.front().name.empty());
+  EXPECT_FALSE(vulkan_->run(in.field(), s, {.visibility = view}).ok());
 }
 
 }  // namespace

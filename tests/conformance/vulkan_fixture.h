@@ -1,0 +1,85 @@
+#ifndef OBSCURA_TESTS_CONFORMANCE_VULKAN_FIXTURE_H_
+#define OBSCURA_TESTS_CONFORMANCE_VULKAN_FIXTURE_H_
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "support/vulkan/headless.h"
+#include "tests/property/synthetic.h"
+
+namespace obscura {
+
+// Vulkan against the processor, with the validation layers on. A missing driver is a failure: the
+// packages that the tests install bring a software one.
+class VulkanTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    vulkan_ = new support::HeadlessVulkan;
+    status_ = support::HeadlessVulkan::create({.validate = true}, vulkan_);
+  }
+  static void TearDownTestSuite() { delete vulkan_; }
+  void SetUp() override { ASSERT_TRUE(status_.ok()) << status_.message(); }
+
+  // Mean difference at most 0.1 %, 99.9 % of the pixels within 1/255.
+  static void expect_close(std::span<const float> cpu, std::span<const float> gpu,
+                           const std::string& what) {
+    double sum = 0;
+    std::size_t close = 0;
+    for (std::size_t i = 0; i < cpu.size(); ++i) {
+      const double difference = std::abs(double{cpu[i]} - gpu[i]);
+      sum += difference;
+      close += difference <= 1.0 / 255;
+    }
+    EXPECT_LE(sum / cpu.size(), 0.001) << what;
+    EXPECT_GE(double(close), 0.999 * cpu.size()) << what;
+  }
+
+  // Of every output, and no word from the layers. Directions are compared where their length says
+  // something: at least 0.02 of the sphere is seen.
+  static void expect_same(const DepthField& field, const MethodSettings& settings,
+                          const std::string& what, bool directions = false,
+                          const support::HeadlessFormats& formats = {}) {
+    const int w = field.visible_width(), h = field.visible_height();
+    std::vector<float> images[2][5];
+    Outputs outputs[2];
+    for (int i = 0; i < 2; ++i) {
+      std::array<ImageView<float>, 5> views;
+      for (int c = 0; c < (directions ? 5 : 1); ++c) {
+        images[i][c].assign(std::size_t(w) * h, -1.0f);
+        views[c] = {images[i][c].data(), w, h};
+      }
+      outputs[i] = {.visibility = views[0],
+                    .bent_normal = {views[1], views[2], views[3]},
+                    .cone_angle = views[4]};
+    }
+    const Status on_cpu = compute(field, settings, outputs[0]);
+    ASSERT_TRUE(on_cpu.ok()) << what << ": " << on_cpu.message();
+    support::HeadlessTimes times;
+    const Status on_gpu = vulkan_->run(field, settings, outputs[1], &times, formats);
+    ASSERT_TRUE(on_gpu.ok()) << what << ": " << on_gpu.message();
+    constexpr const char* kNames[] = {"visibility", "bent x", "bent y", "bent z", "cone"};
+    for (int c = 0; c < (directions ? 5 : 1); ++c) {
+      for (int i = 0; c > 0 && i < 2; ++i) {
+        for (std::size_t k = 0; k < images[i][c].size(); ++k) {
+          if (images[0][0][k] < 0.02f) images[i][c][k] = 0;
+        }
+      }
+      expect_close(images[0][c], images[1][c], what + ", " + kNames[c]);
+    }
+    EXPECT_FALSE(times.passes.empty());
+    for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;
+  }
+
+  static inline support::HeadlessVulkan* vulkan_ = nullptr;
+  static inline Status status_;
+};
+
+}  // namespace obscura
+
+#endif  // OBSCURA_TESTS_CONFORMANCE_VULKAN_FIXTURE_H_

@@ -148,10 +148,15 @@ HWY_INLINE void AddMatter(D d, const math::Rho& rho, const Slice<V>& s, V x, V y
   const auto fresh = hn::AndNot(hn::BitCast(di, m.covered), mine);
   if (!hn::AllTrue(di, hn::Eq(fresh, hn::Zero(di)))) {
     const V count = hn::ConvertTo(d, hn::BitCast(di, hn::PopulationCount(hn::BitCast(du, fresh))));
-    V ex = hn::Mul(x, s.perspective), ey = hn::MulSub(y, s.perspective, s.camera);
-    ex = hn::IfThenElse(joined, hn::Sub(x, m.x), ex);
-    ey = hn::IfThenElse(joined, hn::Sub(y, m.y), ey);
-    const V numerator = hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex)));
+    // The edge stands as with endless matter (EdgeBefore).
+    const V outwards = hn::Sub(x, m.x), rise = hn::Sub(y, m.y);
+    const M edge = hn::And(joined, hn::And(hn::Gt(outwards, zero), hn::Gt(rise, outwards)));
+    const V px = hn::IfThenElse(edge, hn::NegMulAdd(hn::Set(d, 0.5f), outwards, x), x);
+    const M chord = hn::AndNot(edge, joined);
+    V ex = hn::Mul(px, s.perspective), ey = hn::MulSub(y, s.perspective, s.camera);
+    ex = hn::IfThenElse(chord, outwards, ex);
+    ey = hn::IfThenElse(chord, rise, ey);
+    const V numerator = hn::Abs(hn::MulSub(px, ey, hn::Mul(y, ex)));
     // rho at two directions between the edges, a quarter and three quarters along the chord of
     // their unit vectors.
     auto rho_at = [&](float t) HWY_ATTR {

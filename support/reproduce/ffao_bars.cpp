@@ -99,13 +99,13 @@ Status depth_field_errors(const Bench& b) {
 Status world_errors(const Bench& b) {
   std::vector<const char*> scenes = {"hall", "tower", "cornell"};
   if (b.has("meshes/stanford-bunny.obj")) scenes.push_back("bunny");
-  double mean[3] = {};
+  double mean[6] = {};  // of the far field, of rays through the same model
   for (const char* scene : scenes) {
     FfaoView view;
     if (Status s = b.load(scene, kSmall, &view); !s.ok()) return s;
     const double size = view.rendering.gbuffer.scene_size;
     view.falloff.radius = static_cast<float>(0.05 * size);
-    std::vector<float> truth;
+    std::vector<float> truth, traced;
     if (Status s = trace_world(view, kSubset, b.executor, &truth); !s.ok()) return s;
     const std::pair<const char*, Occluder> models[] = {
         {"solid", {}},
@@ -119,9 +119,20 @@ Status world_errors(const Bench& b) {
       if (Status s = b.error(view, settings, truth, &c); !s.ok()) return s;
       b.add(fmt::format("{} against the world, {}: e_A", scene, models[i].first), c.e_a, "%");
       mean[i] += c.e_a / static_cast<double>(scenes.size());
+      if (Status s = trace_depth_field(view, kSubset, b.executor, &traced, models[i].second);
+          !s.ok()) {
+        return s;
+      }
+      if (Status s = compare_ffao(view, traced, truth, &c); !s.ok()) return s;
+      b.add(fmt::format("{} against the world, {}, traced: e_A", scene, models[i].first), c.e_a,
+            "%");
+      mean[3 + i] += c.e_a / static_cast<double>(scenes.size());
     }
   }
   b.add("mean against the world, solid: e_A", mean[0], "%");
+  b.add("mean against the world, solid, traced: e_A", mean[3], "%");
+  b.add("mean against the world, thickness 1 %, traced: e_A", mean[4], "%");
+  b.add("mean against the world, back depth, traced: e_A", mean[5], "%");
   b.add("mean against the world, thickness 1 %: e_A", mean[1], "%", std::min(3.5, 0.5 * mean[0]));
   b.add("mean against the world, back depth: e_A", mean[2], "%", std::min(2.5, 0.5 * mean[0]));
   return {};

@@ -137,8 +137,9 @@ Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& 
 }
 
 Status trace_depth_field(const FfaoView& view, const TruthGrid& grid, Executor& executor,
-                         std::vector<float>* truth) {
+                         std::vector<float>* truth, const Occluder& occluder) {
   ReferenceSettings settings = tracer_for(view, grid.rays);
+  settings.occluder = occluder;
   settings.seed = 1;
   settings.every = grid.every;
   RunOptions options;

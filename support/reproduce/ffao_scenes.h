@@ -53,7 +53,7 @@ Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& 
 
 // Truths: of the depth field as the occluder says (solid in the paper), and of the world.
 Status trace_depth_field(const FfaoView& view, const TruthGrid& grid, Executor& executor,
-                         std::vector<float>* truth);
+                         std::vector<float>* truth, const Occluder& occluder = {});
 Status trace_world(const FfaoView& view, const TruthGrid& grid, Executor& executor,
                    std::vector<float>* truth);
 

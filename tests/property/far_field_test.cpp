@@ -159,6 +159,55 @@ TEST(FarField, LightPassesBehindThinMatter) {
   EXPECT_GT(given, 0.85f);
 }
 
+// Posts of a few pixels before a thick wall and before the sky: wall and post do not touch,
+// although the wall is thicker than the gap, and a post's rounded sides do not stand in each
+// other's way.
+TEST(FarField, FiniteMatterAgreesWithRays) {
+  constexpr int kWidth = 96, kHeight = 72;
+  synthetic::Input in =
+      synthetic::plane(kWidth, kHeight, Camera::perspective(1.0f, kWidth, kHeight), 0, 0, 1, 10);
+  std::vector<float> back(in.depth.size(), 12.0f);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const std::size_t i = std::size_t(y) * kWidth + x;
+      if (x >= 60) in.depth[i] = kInf;
+      if (x >= 28 && x <= 32) {
+        in.depth[i] = 8.0f - 0.1f * (2 - std::abs(x - 30));
+        back[i] = 8.3f;
+      }
+      if (x >= 78 && x <= 82) {
+        const float side = 0.45f * (x - 80);  // of the normal, across the post
+        in.depth[i] = 9.0f + 0.06f * (x - 80) * (x - 80);
+        back[i] = 9.5f;
+        in.normals[3 * i] = side;
+        in.normals[3 * i + 2] = std::sqrt(1 - side * side);
+      }
+    }
+  }
+  DepthField field = in.field();
+  field.back_depth = {back.data(), kWidth, kHeight};
+  FarFieldSettings s;
+  s.falloff.radius = 1.5f;
+  ReferenceSettings rays;
+  rays.falloff = s.falloff;
+  for (const Occluder& occluder : {Occluder::back_depth(), Occluder::of_thickness(0.4f)}) {
+    s.occluder = rays.occluder = occluder;
+    std::vector<float> truth(in.depth.size());
+    ASSERT_TRUE(compute(field, rays, {.visibility = {truth.data(), kWidth, kHeight}}).ok());
+    const std::vector<float> v = visibility(field, s);
+    double sum[2] = {};
+    int count[2] = {};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (!std::isfinite(in.depth[i])) continue;
+      const bool post = int(i % kWidth) >= 78;
+      sum[post] += std::abs(v[i] - truth[i]);
+      ++count[post];
+    }
+    EXPECT_LT(sum[0] / count[0], 0.02) << "wall, " << int(occluder.kind);
+    EXPECT_LT(sum[1] / count[1], 0.05) << "post, " << int(occluder.kind);
+  }
+}
+
 TEST(FarField, MirroredInputGivesMirroredOutput) {
   synthetic::Input in = synthetic::blocks(150, 70, Camera::perspective(1.0f, 150, 70), 3);
   const std::vector<float> v = visibility(in.field(), quick());

@@ -92,7 +92,15 @@ void list_taps(const Plane& p, const Direction& direction, const Segment& segmen
                      .nearest = (tap.wv >= 0.5f ? lower : upper) + (tap.wu >= 0.5f ? right : left),
                      .wu = tap.wu,
                      .wv = tap.wv,
-                     .along = tap.along});
+                     .along = tap.along,
+                     .centred = false});
+  }
+  // The receiver's own row, 0, has none.
+  for (std::size_t i = 0; i < taps->size(); ++i) {
+    const float row = std::round((*taps)[i].along);
+    auto off = [&](std::size_t k) { return std::abs((*taps)[k].along - row); };
+    (*taps)[i].centred = row > 0 && (i == 0 || off(i) < off(i - 1)) &&
+                         (i + 1 == taps->size() || off(i) <= off(i + 1));
   }
 }
 

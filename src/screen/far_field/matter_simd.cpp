@@ -14,7 +14,9 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura::far_field {
 namespace HWY_NAMESPACE {
 
-// A direct sample: blended between four texels of one surface, otherwise the nearest of them.
+// A direct sample: blended between four texels of one surface, otherwise the nearest of them. That
+// one stands at its own row only: taken at several places it would be a step of the height of a
+// texel in every surface that is not blended, which rods and edges would cast on themselves.
 struct Sample {
   V depth, back;
   M valid;
@@ -25,7 +27,11 @@ HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead&
   const float* texels = job.texels + i;
   const V a = hn::LoadU(d, texels + tap.upper), b = hn::LoadU(d, texels + tap.upper_next);
   const V c = hn::LoadU(d, texels + tap.lower), e = hn::LoadU(d, texels + tap.lower_next);
-  const V back = hn::LoadU(d, job.backs + i + tap.nearest);
+  const float* backs = job.backs + i;
+  const V back = hn::LoadU(d, backs + tap.nearest);
+  const V first_back =
+      hn::Min(hn::Min(hn::LoadU(d, backs + tap.upper), hn::LoadU(d, backs + tap.upper_next)),
+              hn::Min(hn::LoadU(d, backs + tap.lower), hn::LoadU(d, backs + tap.lower_next)));
   const bool right = tap.wu >= 0.5f, below = tap.wv >= 0.5f;
   const V nearest = below ? (right ? e : c) : (right ? b : a);
   const V wu = hn::Set(d, tap.wu);
@@ -34,12 +40,12 @@ HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead&
   const V least = hn::Min(hn::Min(a, b), hn::Min(c, e));
   const V most = hn::Max(hn::Max(a, b), hn::Max(c, e));
   const V far = f.DepthOf(hn::Max(least, tiny)), near = f.DepthOf(hn::Max(most, tiny));
-  const V own = f.DepthOf(hn::Max(nearest, tiny));
-  const V reach = hn::MulAdd(hn::Set(d, job.slack), near, hn::Sub(back, own));
-  const M smooth = hn::And(hn::Gt(least, hn::Zero(d)), hn::Le(hn::Sub(far, near), reach));
+  const M touch = hn::Le(hn::Sub(far, first_back), hn::Mul(hn::Set(d, job.slack), near));
+  const M smooth = hn::And(hn::Gt(least, hn::Zero(d)), touch);
   const V g = hn::IfThenElse(smooth, blended, nearest);
   const V depth = f.DepthOf(hn::Max(g, tiny));
-  return {depth, hn::Max(back, depth), hn::Gt(g, hn::Zero(d))};
+  const M surface = hn::Gt(g, hn::Zero(d));
+  return {depth, hn::Max(back, depth), tap.centred ? surface : hn::And(surface, smooth)};
 }
 
 template <FalloffKind kKind, SliceSums kSums>

@@ -18,6 +18,7 @@ struct TapRead {
   std::ptrdiff_t nearest;  // of the four
   float wu, wv;            // weights of the next and of the lower texels
   float along;             // rows outwards
+  bool centred;            // no other sample is nearer to this one's nearest row of texels
 };
 
 // One interval likewise: receiver i averages the lines from entry first + i of `from` to entry

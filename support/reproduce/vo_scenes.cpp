@@ -36,6 +36,32 @@ std::vector<VoVariant> vo_variants(float radius) {
   };
 }
 
+VoVariant vo_horizon(float radius) {
+  HorizonSettings s;
+  s.falloff.radius = radius;
+  s.variant = HorizonVariant::kClassic;
+  s.blur = false;
+  return {"horizon, 8 x 8", s};
+}
+
+Status vo_converged_horizon(const DepthInput& input, float radius, Executor* executor,
+                            std::vector<float>* visibility) {
+  auto settings = std::get<HorizonSettings>(vo_horizon(radius).settings);
+  settings.directions = 64;
+  settings.steps = 64;
+  settings.interleave = 1;
+  return vo_visibility(input, settings, 1, executor, visibility);
+}
+
+MethodSettings vo_blurred(MethodSettings settings) {
+  std::visit(
+      [](auto& s) {
+        if constexpr (requires { s.blur; }) s.blur = true;
+      },
+      settings);
+  return settings;
+}
+
 Status vo_visibility(const DepthInput& input, MethodSettings settings, std::uint32_t seed,
                      Executor* executor, std::vector<float>* visibility) {
   std::visit(SetSeed{seed}, settings);

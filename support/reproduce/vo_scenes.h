@@ -18,6 +18,14 @@ struct VoVariant {
 // 5 and 9 lines, 12 and 33 points, 1 and 9 areas of one radius, reflected at random, not blurred.
 std::vector<VoVariant> vo_variants(float radius);
 
+// Horizon-based ambient occlusion of the same radius, and the integral that it converges to.
+VoVariant vo_horizon(float radius);
+Status vo_converged_horizon(const DepthInput& input, float radius, Executor* executor,
+                            std::vector<float>* visibility);
+
+// The same settings with the edge-aware blur.
+MethodSettings vo_blurred(MethodSettings settings);
+
 // Visibility of one frame; `seed` replaces the settings' own.
 Status vo_visibility(const DepthInput& input, MethodSettings settings, std::uint32_t seed,
                      Executor* executor, std::vector<float>* visibility);

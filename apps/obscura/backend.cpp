@@ -21,7 +21,7 @@ Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings
   support::HeadlessTimes times;
   if (Status s = vulkan.run(input.field(), *method, outputs, &times); !s.ok()) return s;
   if (options.pass_times) {
-    for (const auto& [name, ms] : times.passes) options.pass_times->push_back({name, ms});
+    for (const auto& pass : times.passes) options.pass_times->push_back({pass.name, pass.ms});
   }
   *ran_on = vulkan.info().name;
   return {};

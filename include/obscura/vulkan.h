@@ -104,6 +104,8 @@ class Recorder {
               const RecordOptions& options = {}) const;
 
   std::span<const char* const> pass_names() const;
+  // Memory that each pass reads or writes, every byte counted once; images as 4 bytes per texel.
+  std::span<const VkDeviceSize> pass_bytes() const;
 
  private:
   class Impl;

@@ -95,6 +95,7 @@ class Recorder::Impl {
         return {StatusCode::kOutOfMemory, "the device could not make a pipeline"};
       }
       names_.push_back(pass.name);
+      bytes_.push_back(bytes_of(pass));
     }
     if (!make_sets()) return {StatusCode::kOutOfMemory, "the device has no descriptors left"};
     return {};
@@ -103,6 +104,7 @@ class Recorder::Impl {
   VkDeviceSize scratch_bytes() const { return scratch_bytes_; }
   void bind_scratch(const Scratch& scratch) { scratch_ = scratch; }
   std::span<const char* const> names() const { return names_; }
+  std::span<const VkDeviceSize> bytes() const { return bytes_; }
 
   Status bind_images(int frame, const FrameImages& images) {
     if (frame < 0 || frame >= shape_.frames) {
@@ -182,6 +184,18 @@ class Recorder::Impl {
     std::size_t pipeline, binding;
   };
 
+  VkDeviceSize bytes_of(const Pass& pass) const {
+    const VkDeviceSize whole = VkDeviceSize{4} * shape_.width * shape_.height;
+    const VkDeviceSize visible = VkDeviceSize{4} * visible_width(shape_) * visible_height(shape_);
+    VkDeviceSize bytes = 0;
+    for (const Slot& slot : pass.slots) {
+      if (slot.kind == Slot::kRegion)
+        bytes += program_.regions[slot.region];
+      else
+        bytes += writes(slot) ? visible : whole;
+    }
+    return bytes;
+  }
   static std::uint32_t groups(int invocations, int group) {
     return static_cast<std::uint32_t>((invocations + group - 1) / group);
   }
@@ -381,6 +395,7 @@ class Recorder::Impl {
   std::vector<Binding> bindings_;
   std::vector<Stage> stages_;  // one per pass
   std::vector<const char*> names_;
+  std::vector<VkDeviceSize> bytes_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
 };
 
@@ -426,6 +441,10 @@ void Recorder::record(VkCommandBuffer commands, int frame, const FrameView& view
 std::span<const char* const> Recorder::pass_names() const {
   if (!impl_) return {};
   return impl_->names();
+}
+std::span<const VkDeviceSize> Recorder::pass_bytes() const {
+  if (!impl_) return {};
+  return impl_->bytes();
 }
 
 }  // namespace obscura::vulkan

@@ -3,6 +3,9 @@
 #include "support/reproduce/reproduce.h"
 #include "support/reproduce/sweeps.h"
 #include "support/reproduce/volumetric.h"
+#ifdef OBSCURA_WITH_VULKAN
+#include "support/vulkan/vulkan_times.h"
+#endif
 
 namespace obscura::support {
 
@@ -39,6 +42,10 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_sweep_error},
       {"sweep-fig3", "Fast occlusion sweeping, Figure 3: local light, the sweeps and Monte Carlo.",
        reproduce_sweep_fig3},
+#ifdef OBSCURA_WITH_VULKAN
+      {"vulkan-times", "The papers' timing tables on a Vulkan device, pass by pass",
+       reproduce_vulkan_times},
+#endif
   };
   return list;
 }

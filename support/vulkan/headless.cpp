@@ -140,7 +140,7 @@ class HeadlessVulkan::Impl {
   const std::vector<std::string>& messages() const { return messages_; }
 
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
-             HeadlessTimes* times, const HeadlessFormats& formats) {
+             HeadlessTimes* times, const HeadlessFormats& formats, int runs) {
     if (Status s = check(outputs); !s.ok()) return s;
     const int width = field.visible_width(), height = field.visible_height();
     const bool directions = !outputs.bent_normal.empty() || !outputs.cone_angle.empty();
@@ -185,21 +185,24 @@ class HeadlessVulkan::Impl {
         !s.ok()) {
       return s;
     }
-    begin();
-    upload(depth);
-    if (shape.normals) upload(normals);
-    make_writable(visibility);
-    if (directions) make_writable(bent_normal);
-    recorder.record_tables(commands_);
-    vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
-    const auto start = std::chrono::steady_clock::now();
-    recorder.record(commands_, 0, {field.camera, field.near_plane, field.far_plane},
-                    {.timestamps = queries_, .first_query = 0});
-    const std::chrono::duration<double, std::micro> recorded =
-        std::chrono::steady_clock::now() - start;
-    fetch(visibility);
-    if (directions) fetch(bent_normal);
-    if (Status s = submit(); !s.ok()) return s;
+    for (int i = 0; i < runs; ++i) {
+      begin();
+      upload(depth);
+      if (shape.normals) upload(normals);
+      make_writable(visibility);
+      if (directions) make_writable(bent_normal);
+      recorder.record_tables(commands_);
+      vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
+      const auto start = std::chrono::steady_clock::now();
+      recorder.record(commands_, 0, {field.camera, field.near_plane, field.far_plane},
+                      {.timestamps = queries_, .first_query = 0});
+      const std::chrono::duration<double, std::micro> recorded =
+          std::chrono::steady_clock::now() - start;
+      fetch(visibility);
+      if (directions) fetch(bent_normal);
+      if (Status s = submit(); !s.ok()) return s;
+      if (times) report(recorder, recorded.count(), i == 0, times);
+    }
     read(visibility, 0, 1, 0, outputs.visibility);
     const bool unsigned_range = formats.output == VulkanFormat::kR8;
     const ImageView<float>* vector[] = {&outputs.bent_normal.x, &outputs.bent_normal.y,
@@ -208,7 +211,32 @@ class HeadlessVulkan::Impl {
       read(bent_normal, c, unsigned_range ? 2.0f : 1.0f, unsigned_range ? -1.0f : 0.0f, *vector[c]);
     }
     read(bent_normal, 3, 1.57079633f, 0, outputs.cone_angle);
-    if (times) report(recorder, recorded.count(), times);
+    return {};
+  }
+
+  Status copy_bandwidth(double* bytes_per_second) {
+    constexpr VkDeviceSize kBytes = VkDeviceSize{256} << 20;
+    Resources r(*this);
+    Buffer from, to;
+    if (!r.buffer(kBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, false, &from) ||
+        !r.buffer(kBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, false, &to)) {
+      return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
+    }
+    *bytes_per_second = 0;
+    for (int i = 0; i < 5; ++i) {
+      begin();
+      vkCmdResetQueryPool(commands_, queries_, 0, 2);
+      vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries_, 0);
+      const VkBufferCopy copy{0, 0, kBytes};
+      vkCmdCopyBuffer(commands_, from.buffer, to.buffer, 1, &copy);
+      vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, queries_, 1);
+      if (Status s = submit(); !s.ok()) return s;
+      std::uint64_t ticks[2];
+      vkGetQueryPoolResults(device_, queries_, 0, 2, sizeof(ticks), ticks, sizeof(ticks[0]),
+                            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+      const double seconds = static_cast<double>(ticks[1] - ticks[0]) * tick_ns_ * 1e-9;
+      if (seconds > 0) *bytes_per_second = std::max(*bytes_per_second, 2.0 * kBytes / seconds);
+    }
     return {};
   }
 
@@ -544,20 +572,31 @@ class HeadlessVulkan::Impl {
     }
   }
 
-  void report(const vulkan::Recorder& recorder, double record_us, HeadlessTimes* times) const {
+  // Of this run if it is the first, else where it was faster than those before.
+  void report(const vulkan::Recorder& recorder, double record_us, bool first,
+              HeadlessTimes* times) const {
     const std::size_t count = recorder.pass_names().size();
     std::vector<std::uint64_t> ticks(count + 1);
     vkGetQueryPoolResults(device_, queries_, 0, static_cast<std::uint32_t>(count + 1),
                           ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-    *times = {.record_us = record_us};
+    HeadlessTimes now{.record_us = record_us};
     for (std::size_t i = 0; i < count; ++i) {
       const std::string_view name = recorder.pass_names()[i];
-      auto pass = std::ranges::find_if(times->passes, [&](auto& p) { return p.first == name; });
-      if (pass == times->passes.end()) {
-        pass = times->passes.insert(pass, {recorder.pass_names()[i], 0.0});
+      auto pass = std::ranges::find(now.passes, name, &HeadlessPass::name);
+      if (pass == now.passes.end()) {
+        pass = now.passes.insert(pass, {.name = recorder.pass_names()[i]});
       }
-      pass->second += static_cast<double>(ticks[i + 1] - ticks[i]) * tick_ns_ * 1e-6;
+      pass->ms += static_cast<double>(ticks[i + 1] - ticks[i]) * tick_ns_ * 1e-6;
+      pass->bytes += static_cast<double>(recorder.pass_bytes()[i]);
+    }
+    if (first) {
+      *times = now;
+      return;
+    }
+    times->record_us = std::min(times->record_us, now.record_us);
+    for (std::size_t i = 0; i < now.passes.size(); ++i) {
+      times->passes[i].ms = std::min(times->passes[i].ms, now.passes[i].ms);
     }
   }
 
@@ -589,8 +628,17 @@ const VulkanDeviceInfo& HeadlessVulkan::info() const { return impl_->info(); }
 const std::vector<std::string>& HeadlessVulkan::messages() const { return impl_->messages(); }
 Status HeadlessVulkan::run(const DepthField& field, const MethodSettings& settings,
                            const Outputs& outputs, HeadlessTimes* times,
-                           const HeadlessFormats& formats) {
-  return impl_->run(field, settings, outputs, times, formats);
+                           const HeadlessFormats& formats, int runs) {
+  return impl_->run(field, settings, outputs, times, formats, runs);
+}
+Status HeadlessVulkan::copy_bandwidth(double* bytes_per_second) {
+  return impl_->copy_bandwidth(bytes_per_second);
+}
+
+double HeadlessTimes::total_ms() const {
+  double sum = 0;
+  for (const HeadlessPass& pass : passes) sum += pass.ms;
+  return sum;
 }
 
 }  // namespace obscura::support

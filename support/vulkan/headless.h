@@ -24,9 +24,16 @@ struct HeadlessOptions {
   bool validate = false;  // validation layers, core and synchronization
 };
 
+struct HeadlessPass {
+  const char* name;  // passes of equal name are one
+  double ms = 0;     // on the device
+  double bytes = 0;  // Recorder::pass_bytes()
+};
 struct HeadlessTimes {
-  double record_us = 0;                                  // of Recorder::record() on the processor
-  std::vector<std::pair<const char*, double>> passes{};  // ms on the device; equal names as one
+  double record_us = 0;  // of Recorder::record() on the processor
+  std::vector<HeadlessPass> passes{};
+
+  double total_ms() const;
 };
 
 // Formats of the images.
@@ -48,8 +55,12 @@ class HeadlessVulkan {
   const std::vector<std::string>& messages() const;
 
   // As compute() on the processor: visibility, bent normal and cone angle; `times` may be null.
+  // Of several runs the fastest of each pass counts.
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
-             HeadlessTimes* times = nullptr, const HeadlessFormats& formats = {});
+             HeadlessTimes* times = nullptr, const HeadlessFormats& formats = {}, int runs = 1);
+
+  // Bytes per second that a copy within the device's memory reads and writes.
+  Status copy_bandwidth(double* bytes_per_second);
 
  private:
   class Impl;

@@ -1,0 +1,14 @@
+#ifndef OBSCURA_SUPPORT_VULKAN_VULKAN_TIMES_H_
+#define OBSCURA_SUPPORT_VULKAN_VULKAN_TIMES_H_
+
+#include "support/reproduce/reproduce.h"
+
+namespace obscura::support {
+
+// The papers' timing tables at their resolutions on the first Vulkan device, pass by pass, beside
+// their own figures.
+Status reproduce_vulkan_times(const ReproduceContext& context, Report* report, std::string* text);
+
+}  // namespace obscura::support
+
+#endif  // OBSCURA_SUPPORT_VULKAN_VULKAN_TIMES_H_

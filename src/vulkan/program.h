@@ -30,7 +30,7 @@ struct Pass {
   std::vector<std::uint32_t> constants;   // specialization constants 0, 1, ...; bool as 0 and 1
   std::vector<Slot> slots;                // binding 0, 1, ...
   int width = 1, height = 1, layers = 1;  // invocations in x and y, groups in z
-  int group_x = 8, group_y = 8;           // the shader's local_size
+  int group_x = 8, group_y = 8;           // what of them one group does
   float radius = 0, thickness = 0;        // in FrameConstants
   std::vector<std::uint32_t> push{};      // PASS_CONSTANTS of view.glsl, at most kMaxPush
   bool overlaps = false;  // depends on nothing that the pass before writes: no barrier between
@@ -47,6 +47,14 @@ struct Program {
   int add_region(VkDeviceSize bytes) {
     regions.push_back(bytes);
     return static_cast<int>(regions.size()) - 1;
+  }
+  // Appends to the tables; returns where, in floats.
+  std::uint32_t add_table(std::span<const float> values) {
+    if (table_region < 0) table_region = add_region(0);
+    const auto start = static_cast<std::uint32_t>(tables.size());
+    tables.insert(tables.end(), values.begin(), values.end());
+    regions[table_region] = tables.size() * sizeof(float);
+    return start;
   }
 };
 

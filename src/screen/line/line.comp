@@ -3,22 +3,24 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/sphere_line_leaf.h"
+#define PASS_CONSTANTS int pattern;  // where it starts in the tables
 #include "vulkan/view.glsl"
+#include "vulkan/visibility.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kSamples = 9;
-layout(constant_id = 1) const bool kNormals = true;
-layout(constant_id = 2) const bool kRotate = true;
-layout(constant_id = 3) const bool kThickness = false;
-layout(constant_id = 4) const bool kQuadratic = false;
-layout(constant_id = 5) const bool kTangent = false;
-layout(constant_id = 6) const int kNoise = 64;
+layout(constant_id = 2) const int kSamples = 9;
+layout(constant_id = 3) const bool kNormals = true;
+layout(constant_id = 4) const bool kRotate = true;
+layout(constant_id = 5) const bool kThickness = false;
+layout(constant_id = 6) const bool kQuadratic = false;
+layout(constant_id = 7) const bool kTangent = false;
+layout(constant_id = 8) const int kNoise = 64;
 
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-// Per sample x, y, lateral, extent, half, weight; then per pixel of the tile x, y.
-layout(binding = 2) readonly buffer Tables { float tables[]; };
-layout(binding = 3) uniform writeonly image2D visibility;
+layout(binding = 2) readonly buffer Depth { float depth[]; };
+layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
+// Per pixel of the tile of reflections x, y; per sample of the pattern x, y, lateral, extent, half,
+// weight.
+layout(binding = 4) readonly buffer Tables { float tables[]; };
 
 const float kMaxReach = 131072.0;
 const float kEdgeOn = -1e-4;
@@ -33,7 +35,7 @@ void main() {
   const ivec2 at = p + ivec2(view.left, view.top);
   const float z = depth[at.y * view.width + at.x];
   if (!(z < kInf)) {
-    imageStore(visibility, p, vec4(1.0));
+    store_visibility(p, 1.0);
     return;
   }
   const float perspective = view.orthographic != 0 ? 0.0 : 1.0;
@@ -63,15 +65,16 @@ void main() {
   }
   vec2 noise = vec2(0.0);
   if (kRotate) {
-    const int k = kSamples * 6 + 2 * ((p.y % kNoise) * kNoise + p.x % kNoise);
+    const int k = 2 * ((p.y % kNoise) * kNoise + p.x % kNoise);
     noise = vec2(tables[k], tables[k + 1]);
   }
 
   float open = kNormals ? 0.0 : 0.5, whole = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    const vec2 s = vec2(tables[6 * i], tables[6 * i + 1]);
-    const float lateral = tables[6 * i + 2], zs = tables[6 * i + 3];
-    const float half_line = tables[6 * i + 4], weight = tables[6 * i + 5];
+    const int t = view.pattern + 6 * i;
+    const vec2 s = vec2(tables[t], tables[t + 1]);
+    const float lateral = tables[t + 2], zs = tables[t + 3];
+    const float half_line = tables[t + 4], weight = tables[t + 5];
     vec2 offset_px = reach * s + center;
     if (kRotate) {
       offset_px = vec2(fma(reach.x * noise.x, s.x, fma(reach.x * noise.y, s.y, center.x)),
@@ -103,5 +106,5 @@ void main() {
     }
   }
   if (kNormals) open = whole > 0.0 ? open / whole : 1.0;
-  imageStore(visibility, p, vec4(clamp(open, 0.0, 1.0)));
+  store_visibility(p, open);
 }

@@ -58,6 +58,9 @@ struct FrameView {
   Camera camera{};
   float near_plane = 0;  // NDC kinds
   float far_plane = std::numeric_limits<float>::infinity();
+  // For a temporal filter: random and interleaved patterns move from pixel to pixel with it, so
+  // that the mean over 16 frames is that of 16 patterns. 0 gives what the processor gives.
+  std::uint32_t frame_index = 0;
 };
 
 // Memory that the caller provides for what passes hand on: STORAGE_BUFFER and TRANSFER_DST usage,

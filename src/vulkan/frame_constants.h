@@ -9,7 +9,7 @@ struct FrameConstants {
   int width, height, left, top;
   int visible_width, visible_height;
   float near_plane, far_plane;
-  int orthographic;
+  int orthographic, frame_index;
   float radius, thickness;
 };
 

@@ -373,6 +373,7 @@ class Recorder::Impl {
             .near_plane = v.near_plane,
             .far_plane = v.far_plane,
             .orthographic = v.camera.orthographic,
+            .frame_index = static_cast<int>(v.frame_index & 0xFFFF),
             .radius = 0,
             .thickness = 0};
   }

@@ -8,9 +8,15 @@ layout(push_constant) uniform View {
   int width, height, left, top;
   int visible_width, visible_height;
   float near_plane, far_plane;
-  int orthographic;
+  int orthographic, frame_index;
   float radius, thickness;
   PASS_CONSTANTS
 } view;
 
 #define kInf uintBitsToFloat(0x7f800000u)
+
+// Where in a pattern that repeats from pixel to pixel a pixel stands in this frame: over 16 frames
+// each takes every place of a pattern of 4x4.
+ivec2 pattern_place(ivec2 pixel) {
+  return pixel + ivec2(view.frame_index & 0xFFFF, (view.frame_index >> 2) & 0x3FFF);
+}

@@ -140,7 +140,7 @@ class HeadlessVulkan::Impl {
   const std::vector<std::string>& messages() const { return messages_; }
 
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
-             HeadlessTimes* times, const HeadlessFormats& formats, int runs) {
+             HeadlessTimes* times, const HeadlessFrame& frame, int runs) {
     if (Status s = check(outputs); !s.ok()) return s;
     const int width = field.visible_width(), height = field.visible_height();
     const bool directions = !outputs.bent_normal.empty() || !outputs.cone_angle.empty();
@@ -151,7 +151,7 @@ class HeadlessVulkan::Impl {
                                    .normals = !field.normals.empty(),
                                    .normal_use = field.normal_use,
                                    .directions = !directions ? vulkan::Directions::kNone
-                                                 : formats.output == VulkanFormat::kR8
+                                                 : frame.output == VulkanFormat::kR8
                                                      ? vulkan::Directions::kUnsigned
                                                      : vulkan::Directions::kSigned,
                                    .frames = 1};
@@ -172,11 +172,11 @@ class HeadlessVulkan::Impl {
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, false,
                  &scratch) &&
         r.input(shape.width, shape.height,
-                formats.depth_buffer ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, &depth) &&
+                frame.depth_buffer ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, &depth) &&
         (!shape.normals ||
          r.input(shape.width, shape.height, VK_FORMAT_R32G32B32A32_SFLOAT, &normals)) &&
-        r.output(width, height, formats.output, 1, &visibility) &&
-        (!directions || r.output(width, height, formats.output, 4, &bent_normal));
+        r.output(width, height, frame.output, 1, &visibility) &&
+        (!directions || r.output(width, height, frame.output, 4, &bent_normal));
     if (!ok) return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
     fill(field, shape.normals, depth.upload, normals.upload);
     recorder.bind_scratch({scratch.buffer, 0});
@@ -194,7 +194,8 @@ class HeadlessVulkan::Impl {
       recorder.record_tables(commands_);
       vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
       const auto start = std::chrono::steady_clock::now();
-      recorder.record(commands_, 0, {field.camera, field.near_plane, field.far_plane},
+      recorder.record(commands_, 0,
+                      {field.camera, field.near_plane, field.far_plane, frame.frame_index},
                       {.timestamps = queries_, .first_query = 0});
       const std::chrono::duration<double, std::micro> recorded =
           std::chrono::steady_clock::now() - start;
@@ -204,7 +205,7 @@ class HeadlessVulkan::Impl {
       if (times) report(recorder, recorded.count(), i == 0, times);
     }
     read(visibility, 0, 1, 0, outputs.visibility);
-    const bool unsigned_range = formats.output == VulkanFormat::kR8;
+    const bool unsigned_range = frame.output == VulkanFormat::kR8;
     const ImageView<float>* vector[] = {&outputs.bent_normal.x, &outputs.bent_normal.y,
                                         &outputs.bent_normal.z};
     for (int c = 0; c < 3; ++c) {
@@ -627,9 +628,9 @@ Status HeadlessVulkan::create(const HeadlessOptions& options, HeadlessVulkan* vu
 const VulkanDeviceInfo& HeadlessVulkan::info() const { return impl_->info(); }
 const std::vector<std::string>& HeadlessVulkan::messages() const { return impl_->messages(); }
 Status HeadlessVulkan::run(const DepthField& field, const MethodSettings& settings,
-                           const Outputs& outputs, HeadlessTimes* times,
-                           const HeadlessFormats& formats, int runs) {
-  return impl_->run(field, settings, outputs, times, formats, runs);
+                           const Outputs& outputs, HeadlessTimes* times, const HeadlessFrame& frame,
+                           int runs) {
+  return impl_->run(field, settings, outputs, times, frame, runs);
 }
 Status HeadlessVulkan::copy_bandwidth(double* bytes_per_second) {
   return impl_->copy_bandwidth(bytes_per_second);

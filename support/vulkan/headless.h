@@ -1,6 +1,7 @@
 #ifndef OBSCURA_SUPPORT_VULKAN_HEADLESS_H_
 #define OBSCURA_SUPPORT_VULKAN_HEADLESS_H_
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -36,11 +37,12 @@ struct HeadlessTimes {
   double total_ms() const;
 };
 
-// Formats of the images.
-enum class VulkanFormat { kR8, kR16F, kR32F };  // and RGBA for the bent normal; 8 bits are UNORM
-struct HeadlessFormats {
+// Formats of the images; RGBA of the bent normal, whose 8 bits are UNORM.
+enum class VulkanFormat { kR8, kR16F, kR32F };
+struct HeadlessFrame {
   VulkanFormat output = VulkanFormat::kR32F;
   bool depth_buffer = false;  // depth as D32_SFLOAT, not R32_SFLOAT
+  std::uint32_t frame_index = 0;
 };
 
 class HeadlessVulkan {
@@ -57,7 +59,7 @@ class HeadlessVulkan {
   // As compute() on the processor: visibility, bent normal and cone angle; `times` may be null.
   // Of several runs the fastest of each pass counts.
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
-             HeadlessTimes* times = nullptr, const HeadlessFormats& formats = {}, int runs = 1);
+             HeadlessTimes* times = nullptr, const HeadlessFrame& frame = {}, int runs = 1);
 
   // Bytes per second that a copy within the device's memory reads and writes.
   Status copy_bandwidth(double* bytes_per_second);

@@ -44,7 +44,7 @@ class VulkanTest : public ::testing::Test {
   // something: at least 0.02 of the sphere is seen.
   static void expect_same(const DepthField& field, const MethodSettings& settings,
                           const std::string& what, bool directions = false,
-                          const support::HeadlessFormats& formats = {}) {
+                          const support::HeadlessFrame& frame = {}) {
     const int w = field.visible_width(), h = field.visible_height();
     std::vector<float> images[2][5];
     Outputs outputs[2];
@@ -61,7 +61,7 @@ class VulkanTest : public ::testing::Test {
     const Status on_cpu = compute(field, settings, outputs[0]);
     ASSERT_TRUE(on_cpu.ok()) << what << ": " << on_cpu.message();
     support::HeadlessTimes times;
-    const Status on_gpu = vulkan_->run(field, settings, outputs[1], &times, formats);
+    const Status on_gpu = vulkan_->run(field, settings, outputs[1], &times, frame);
     ASSERT_TRUE(on_gpu.ok()) << what << ": " << on_gpu.message();
     constexpr const char* kNames[] = {"visibility", "bent x", "bent y", "bent z", "cone"};
     for (int c = 0; c < (directions ? 5 : 1); ++c) {

@@ -127,6 +127,32 @@ TEST_F(VulkanLine, EveryFormatOfVisibility) {
   }
 }
 
+// What a temporal filter lives on: 16 frames together know more than one.
+TEST_F(VulkanLine, FramesTakeDifferentPatterns) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 7);
+  LineSettings s = line(1);
+  s.samples = 5;
+  const std::size_t pixels = std::size_t{64} * 48;
+  std::vector<float> converged(pixels), v(pixels), mean(pixels, 0.0f);
+  LineSettings many = s;
+  many.samples = 32;
+  ASSERT_TRUE(compute(in.field(), many, {.visibility = {converged.data(), 64, 48}}).ok());
+  auto error = [&](const std::vector<float>& a) {
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels; ++i) sum += std::abs(a[i] - converged[i]);
+    return sum / pixels;
+  };
+  double single = 0;
+  for (std::uint32_t frame = 0; frame < 16; ++frame) {
+    const Status status = vulkan_->run(in.field(), s, {.visibility = {v.data(), 64, 48}}, nullptr,
+                                       {.frame_index = frame});
+    ASSERT_TRUE(status.ok()) << status.message();
+    single += error(v) / 16;
+    for (std::size_t i = 0; i < pixels; ++i) mean[i] += v[i] / 16;
+  }
+  EXPECT_LT(error(mean), 0.5 * single);
+}
+
 TEST_F(VulkanLine, WhatCannotRunIsRefused) {
   const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
   std::vector<float> out(256);

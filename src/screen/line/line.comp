@@ -65,7 +65,8 @@ void main() {
   }
   vec2 noise = vec2(0.0);
   if (kRotate) {
-    const int k = 2 * ((p.y % kNoise) * kNoise + p.x % kNoise);
+    const ivec2 place = pattern_place(p) % kNoise;
+    const int k = 2 * (place.y * kNoise + place.x);
     noise = vec2(tables[k], tables[k + 1]);
   }
 

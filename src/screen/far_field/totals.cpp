@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "screen/far_field/finish_kernel.h"
+
 namespace obscura::far_field {
 namespace {
 
@@ -37,15 +39,45 @@ void collect_tiles(const PhaseImage& a, const PhaseImage& b, Executor& executor,
   });
 }
 
-// The share along the view ray goes to the three axes.
-void add_ray(const Plane& p, int y, const float* ray, float* x_row, float* y_row, float* z_row) {
-  const float b = p.orthographic ? 0.0f : (y + p.top - p.center_v) * p.scale_v;
-  for (int x = 0; x < p.visible_width; ++x) {
-    const float a = p.orthographic ? 0.0f : (x + p.left - p.center_u) * p.scale_u;
-    const float along = ray[x] / std::sqrt(1 + a * a + b * b);
-    x_row[x] += along * a;
-    y_row[x] -= along * b;
-    z_row[x] = -along;
+void write(const float* values, int x, int y, int count, const ImageView<float>& to) {
+  for (int i = 0; !to.empty() && i < count; ++i) to(x + i, y) = values[i];
+}
+void write(const float (*values)[FinishJob::kRoom], int x, int y, int count,
+           const VectorView<float>& to) {
+  write(values[0], x, y, count, to.x);
+  write(values[1], x, y, count, to.y);
+  write(values[2], x, y, count, to.z);
+}
+
+void finish_uniform(const view::Geometry& g, const Totals& totals, ConeEstimate cone, int y,
+                    const Outputs& o) {
+  const AlignedImage<float>* normal[] = {&g.normal_x, &g.normal_y, &g.normal_z};
+  FinishJob job;
+  job.paper_cone = cone == ConeEstimate::kPaper;
+  for (int x = 0; x < g.visible_width(); x += FinishJob::kMaxCount) {
+    job.count = std::min(FinishJob::kMaxCount, g.visible_width() - x);
+    for (int k = 0; k < 3; ++k) {
+      job.vector[k] = totals.channel[kUniformVector + k].row(y) + x;
+      job.normal[k] = normal[k]->row(y + g.guard_band.top) + g.guard_band.left + x;
+    }
+    job.solid = totals.channel[kObscuredSolid].row(y) + x;
+    finish_directions(&job);
+    write(job.integral, x, y, job.count, o.uniform_integral);
+    write(job.direction, x, y, job.count, o.bent_normal);
+    write(job.angle, x, y, job.count, o.cone_angle);
+  }
+}
+
+void finish_cosine(const view::Geometry& g, const Totals& totals, int y,
+                   const VectorView<float>& to) {
+  const AlignedImage<float>* normal[] = {&g.normal_x, &g.normal_y, &g.normal_z};
+  const ImageView<float>* views[] = {&to.x, &to.y, &to.z};
+  for (int k = 0; k < 3; ++k) {
+    const float* sum = totals.channel[kCosineVector + k].row(y);
+    const float* n = normal[k]->row(y + g.guard_band.top) + g.guard_band.left;
+    for (int x = 0; x < g.visible_width(); ++x) {
+      (*views[k])(x, y) = 2.0f / 3 * n[x] - sum[x] / kPi;
+    }
   }
 }
 
@@ -78,9 +110,17 @@ void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& 
     add(first, first + 1, first, 1);
     add(first + 1, first, first + 1, -1);
     add(first + 2, first + 2, first + 2, 1);
+    const float perspective = p.orthographic ? 0.0f : 1.0f;
     for_rows(p.visible_height, executor, [&](int y) {
       float* z = out[first + 2].row(y);
-      add_ray(p, y, z, out[first].row(y), out[first + 1].row(y), z);
+      add_ray({.width = p.visible_width,
+               .first_a = perspective * (static_cast<float>(p.left) - p.center_u) * p.scale_u,
+               .step_a = perspective * p.scale_u,
+               .b = perspective * (static_cast<float>(y + p.top) - p.center_v) * p.scale_v,
+               .ray = z,
+               .x = out[first].row(y),
+               .y = out[first + 1].row(y),
+               .z = z});
     });
   };
   add(kObscurance, kObscurance, kObscurance, 1);
@@ -184,11 +224,6 @@ void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& 
 void finish(const view::Geometry& g, const Totals& totals, ConeEstimate cone, Executor& executor,
             const Outputs& o) {
   const int width = g.visible_width();
-  auto set = [](const VectorView<float>& to, int x, int y, const float v[3], float scale) {
-    to.x(x, y) = v[0] * scale;
-    to.y(x, y) = v[1] * scale;
-    to.z(x, y) = v[2] * scale;
-  };
   const bool uniform =
       !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty();
   for_rows(g.visible_height(), executor, [&](int y) {
@@ -198,36 +233,8 @@ void finish(const view::Geometry& g, const Totals& totals, ConeEstimate cone, Ex
         o.visibility(x, y) = std::clamp(1 - sum[x] / kPi, 0.0f, 1.0f);
       }
     }
-    if (!uniform && o.cosine_integral.empty()) return;
-    for (int x = 0; x < width; ++x) {
-      const int u = x + g.guard_band.left, v = y + g.guard_band.top;
-      const float n[3] = {g.normal_x(u, v), g.normal_y(u, v), g.normal_z(u, v)};
-      float integral[3];
-      auto open = [&](int first, float all) {
-        for (int k = 0; k < 3; ++k) {
-          integral[k] = all * n[k] - totals.channel[first + k](x, y) / kPi;
-        }
-      };
-      if (!o.cosine_integral.empty()) {
-        open(kCosineVector, 2.0f / 3);
-        set(o.cosine_integral, x, y, integral, 1);
-      }
-      if (!uniform) continue;
-      open(kUniformVector, 1);
-      const float length = length_of(integral);
-      // Where next to nothing is open its direction is noise.
-      constexpr float kLeast = 1e-3f;
-      if (!o.uniform_integral.empty()) set(o.uniform_integral, x, y, integral, 1);
-      if (!o.bent_normal.empty()) {
-        length > kLeast ? set(o.bent_normal, x, y, integral, 1 / length)
-                        : set(o.bent_normal, x, y, n, 1);
-      }
-      if (o.cone_angle.empty()) continue;
-      const float ambient = 1 - totals.channel[kObscuredSolid](x, y) / (2 * kPi);
-      o.cone_angle(x, y) = length > kLeast
-                               ? cone_angle(cone, mean_length_of_uniform_integral(length, ambient))
-                               : 0.0f;
-    }
+    if (uniform) finish_uniform(g, totals, cone, y, o);
+    if (!o.cosine_integral.empty()) finish_cosine(g, totals, y, o.cosine_integral);
   });
 }
 

@@ -21,10 +21,16 @@ using D = hn::ScalableTag<float>;
 using Real = hn::Vec<D>;
 
 HWY_INLINE Real real(float x) { return hn::Set(D(), x); }
+HWY_INLINE Real leaf_neg(Real x) { return hn::Neg(x); }
 HWY_INLINE Real leaf_abs(Real x) { return hn::Abs(x); }
 HWY_INLINE Real leaf_sqrt(Real x) { return hn::Sqrt(x); }
 HWY_INLINE Real leaf_log(Real x) { return hn::Log(D(), x); }
 HWY_INLINE Real leaf_fma(Real a, Real b, Real c) { return hn::MulAdd(a, b, c); }
+HWY_INLINE Real leaf_min(Real a, Real b) { return hn::Min(a, b); }
+HWY_INLINE Real leaf_max(Real a, Real b) { return hn::Max(a, b); }
+HWY_INLINE Real leaf_if_negative(Real x, Real yes, Real no) {
+  return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), yes, no);
+}
 HWY_INLINE Real leaf_copysign(Real magnitude, Real z) { return hn::CopySign(magnitude, z); }
 
 #define LEAF(type) HWY_INLINE type

@@ -2,8 +2,12 @@
 #define Real float
 #define LEAF(type) type
 #define real(x) (x)
+#define leaf_neg(x) (-(x))
 #define leaf_abs abs
 #define leaf_sqrt sqrt
 #define leaf_log log
 #define leaf_fma fma
+#define leaf_min min
+#define leaf_max max
+#define leaf_if_negative(x, yes, no) ((x) < 0.0 ? (yes) : (no))
 #define leaf_copysign(magnitude, z) ((z) < 0.0 ? -(magnitude) : (magnitude))

@@ -12,11 +12,18 @@
 
 #include "core/gather-inl.h"
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 #include "view/tap_frame.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "view/taps_leaf.h"
+#undef LEAF
+}  // namespace leaf
+
 namespace taps {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -32,9 +39,6 @@ constexpr int kVectors = 4;
 
 // A tap can lie this many pixels away, more than any image is wide; it keeps coordinates finite.
 constexpr float kMaxReach = 131072.0f;
-// Normals that turn away from the camera more than this (times the ray's length) are bent back to
-// it: a visible surface cannot face away, but an interpolated normal can.
-constexpr float kEdgeOn = -1e-4f;
 // Rounds to the nearest integer, ties to even, by adding 1.5 * 2^23 and taking the bits: the
 // integer plus kRoundBias, for |v| < 2^22. Rounding to even treats mirror images alike.
 constexpr float kRound = 12582912.0f;
@@ -86,14 +90,12 @@ struct Receivers {
   // Prepares the tangent plane; the normal is bent to face the camera.
   HWY_INLINE void SetNormal(Vec3* n) {
     const D d;
-    const V one = hn::Set(d, 1.0f), limit = hn::Set(d, kEdgeOn);
     facing = hn::MulAdd(n->x, a, hn::MulSub(n->y, b, n->z));
-    const V excess = hn::Max(hn::Sub(facing, limit), hn::Zero(d));
-    const V bend = hn::Div(excess, hn::MulAdd(a, a, hn::MulAdd(b, b, one)));
+    const V bend = leaf::bend_to_camera(facing, a, b);
     n->x = hn::NegMulAdd(bend, a, n->x);
     n->y = hn::NegMulAdd(bend, b, n->y);
     n->z = hn::Add(n->z, bend);
-    facing = hn::Min(facing, limit);
+    facing = hn::Min(facing, hn::Set(d, leaf::kEdgeOn));
     plane_x = hn::Mul(n->x, scale_x);
     plane_y = hn::Mul(n->y, scale_y);
   }
@@ -131,11 +133,9 @@ struct Receivers {
   // How much deeper than its front the back of an occluder lies that is `thickness` thick along the
   // texel's ray.
   HWY_INLINE V DepthOfThickness(V kx, V ky, float thickness) const {
-    const D d;
     V ta, tb;
     Ray(kx, ky, &ta, &tb);
-    const V length2 = hn::MulAdd(ta, ta, hn::MulAdd(tb, tb, hn::Set(d, 1.0f)));
-    return hn::Div(hn::Set(d, thickness), hn::Sqrt(length2));
+    return leaf::depth_of_thickness(hn::Set(D(), thickness), ta, tb);
   }
 
   V z;

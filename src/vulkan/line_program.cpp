@@ -17,26 +17,11 @@ void add_line(const LineSettings& settings, const FrameShape& shape, const Geome
       pattern.push_back(column[i]);
     }
   }
-  const bool normals = g.normals >= 0;
-  Pass pass{.name = "line",
-            .spirv = shaders::line,
-            .constants = target.constants,
-            .slots = target.slots,
-            .width = visible_width(shape),
-            .height = visible_height(shape),
-            .radius = f.view.radius,
-            .thickness = f.thickness,
-            .push = {program->add_table(pattern)}};
-  for (std::uint32_t constant :
-       {static_cast<std::uint32_t>(f.samples), std::uint32_t{normals},
-        std::uint32_t{settings.rotate}, std::uint32_t{f.thickness > 0}, std::uint32_t{f.quadratic},
-        std::uint32_t{f.tangent}, std::uint32_t{ReflectionNoise::kSize}}) {
-    pass.constants.push_back(constant);
-  }
-  for (int region : {g.depth, normals ? g.normals : g.depth, program->table_region}) {
-    pass.slots.push_back(Slot::of(region));
-  }
-  program->passes.push_back(std::move(pass));
+  add_sampling(
+      {.name = "line", .spirv = shaders::line, .radius = f.view.radius, .thickness = f.thickness},
+      {{static_cast<std::uint32_t>(f.samples), g.normals >= 0, settings.rotate, f.thickness > 0,
+        f.quadratic, f.tangent, ReflectionNoise::kSize}},
+      shape, g, target, pattern, program);
 }
 
 }  // namespace

@@ -27,12 +27,12 @@ inline constexpr std::size_t kMaxPush = 16;
 struct Pass {
   const char* name;  // passes of equal name are one in reports
   std::span<const std::uint32_t> spirv;
-  std::vector<std::uint32_t> constants;   // specialization constants 0, 1, ...; bool as 0 and 1
-  std::vector<Slot> slots;                // binding 0, 1, ...
-  int width = 1, height = 1, layers = 1;  // invocations in x and y, groups in z
-  int group_x = 8, group_y = 8;           // what of them one group does
-  float radius = 0, thickness = 0;        // in FrameConstants
-  std::vector<std::uint32_t> push{};      // PASS_CONSTANTS of view.glsl, at most kMaxPush
+  std::vector<std::uint32_t> constants{};  // specialization constants 0, 1, ...; bool as 0 and 1
+  std::vector<Slot> slots{};               // binding 0, 1, ...
+  int width = 1, height = 1, layers = 1;   // invocations in x and y, groups in z
+  int group_x = 8, group_y = 8;            // what of them one group does
+  float radius = 0, thickness = 0;         // in FrameConstants
+  std::vector<std::uint32_t> push{};       // PASS_CONSTANTS of view.glsl, at most kMaxPush
   bool overlaps = false;  // depends on nothing that the pass before writes: no barrier between
 };
 
@@ -73,6 +73,7 @@ Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
 
 // In <method>_program.cpp.
 Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program);
+Status make_program(const PointSettings& settings, const FrameShape& shape, Program* program);
 
 }  // namespace obscura::vulkan
 

@@ -34,6 +34,12 @@ class VolumetricTargets {
   int region_;
 };
 
+// What the passes of one radius share: the pass is given its name, shader, radius and thickness;
+// `constants` come after those of the target, and so do depth, normals and tables.
+void add_sampling(Pass pass, std::span<const std::uint32_t> constants, const FrameShape& shape,
+                  const Geometry& g, const VisibilityTarget& target, std::span<const float> pattern,
+                  Program* program);
+
 // The edge-aware blur (filters/bilateral.h) from a region to the frame's visibility.
 void add_blur(const FrameShape& shape, const Geometry& g, int region, float edge, Program* program);
 

@@ -3,8 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/sphere_line_leaf.h"
+#include "screen/line/line_leaf.h"
+#include "view/taps_leaf.h"
 #define PASS_CONSTANTS int pattern;  // where it starts in the tables
 #include "vulkan/view.glsl"
+#include "view/taps.glsl"
 #include "vulkan/visibility.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -22,8 +25,6 @@ layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
 // weight.
 layout(binding = 4) readonly buffer Tables { float tables[]; };
 
-const float kMaxReach = 131072.0;
-const float kEdgeOn = -1e-4;
 const float kMaxThickness = 1e30;
 
 // Integral of rho from the sphere's middle to z.
@@ -32,33 +33,21 @@ float rho_integral(float z, float lateral) { return kQuadratic ? quadratic_line(
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (p.x >= view.visible_width || p.y >= view.visible_height) return;
-  const ivec2 at = p + ivec2(view.left, view.top);
-  const float z = depth[at.y * view.width + at.x];
+  const float z = depth[(p.y + view.top) * view.width + p.x + view.left];
   if (!(z < kInf)) {
     store_visibility(p, 1.0);
     return;
   }
-  const float perspective = view.orthographic != 0 ? 0.0 : 1.0;
-  const float distance = view.orthographic != 0 ? 1.0 : z;
-  const vec2 scale = vec2(view.scale_x, view.scale_y);
-  const vec2 reach = min(view.radius / scale / distance, vec2(kMaxReach));
+  Receiver r = receiver_at(p, z);
   const float per_unit = kQuadratic ? 1.0 / (kTangent ? 0.5 * view.radius : view.radius) : 1.0;
-  const float a = perspective * view.scale_x * (float(at.x) - (view.center_u - 0.5));
-  const float b = perspective * (view.center_v - (float(at.y) + 0.5)) * view.scale_y;
-
+  // The sphere's centre.
   vec2 center = vec2(0.0);
-  float nearer = 0.0, center_z = z, facing = 0.0;
-  vec2 plane = vec2(0.0);
+  float nearer = 0.0, center_z = z;
   if (kNormals) {
-    vec3 n = normals[p.y * view.visible_width + p.x].xyz;
-    facing = n.x * a + n.y * b - n.z;
-    const float bend = max(facing - kEdgeOn, 0.0) / (a * a + b * b + 1.0);
-    n += bend * vec3(-a, -b, 1.0);
-    facing = min(facing, kEdgeOn);
-    plane = n.xy * scale;
+    set_normal(r, normals[p.y * view.visible_width + p.x].xyz);
     if (kTangent) {
-      center = 0.5 * reach * vec2(n.x, -n.y);
-      const float lift = 0.5 * view.radius * n.z;
+      center = 0.5 * r.reach * vec2(r.normal.x, -r.normal.y);
+      const float lift = 0.5 * view.radius * r.normal.z;
       center_z = z - lift;
       nearer = lift * per_unit;
     }
@@ -76,28 +65,23 @@ void main() {
     const vec2 s = vec2(tables[t], tables[t + 1]);
     const float lateral = tables[t + 2], zs = tables[t + 3];
     const float half_line = tables[t + 4], weight = tables[t + 5];
-    vec2 offset_px = reach * s + center;
+    vec2 offset_px = r.reach * s + center;
     if (kRotate) {
-      offset_px = vec2(fma(reach.x * noise.x, s.x, fma(reach.x * noise.y, s.y, center.x)),
-                       fma(reach.y * noise.y, s.x, fma(-reach.y * noise.x, s.y, center.y)));
+      offset_px = vec2(fma(r.reach.x * noise.x, s.x, fma(r.reach.x * noise.y, s.y, center.x)),
+                       fma(r.reach.y * noise.y, s.x, fma(-r.reach.y * noise.x, s.y, center.y)));
     }
-    const ivec2 texel =
-        clamp(at + ivec2(roundEven(offset_px)), ivec2(0), ivec2(view.width, view.height) - 1);
-    const vec2 k = vec2(texel - at);
+    const ivec2 texel = find_texel(r, offset_px);
+    const vec2 k = vec2(texel - r.at);
     float zu = zs;
     if (kNormals) {
-      const float q = plane.y * k.y - plane.x * k.x;
-      const float slope = facing - perspective * q;
-      if (slope < 0.0) zu = max(min(distance * per_unit * q / slope + nearer, zs), -zs);
+      const vec2 plane = plane_at(r, k);
+      zu = plane_bound(r.distance * per_unit * plane.x, plane.y, nearer, zs);
     }
     const float offset = (depth[texel.y * view.width + texel.x] - center_z) * per_unit;
     float line = rho_integral(max(min(offset, zu), -zs), lateral);
     if (kThickness) {
-      const float ta = a + k.x * perspective * view.scale_x;
-      const float tb = b - k.y * perspective * view.scale_y;
-      const float behind =
-          min(view.thickness / sqrt(ta * ta + tb * tb + 1.0) * per_unit, kMaxThickness);
-      line += rho_integral(zu, lateral) - rho_integral(max(min(offset + behind, zu), -zs), lateral);
+      const float back = offset + min(thickness_at(r, k) * per_unit, kMaxThickness);
+      line += rho_integral(zu, lateral) - rho_integral(max(min(back, zu), -zs), lateral);
     }
     if (kNormals) {
       open += weight * (line + half_line);

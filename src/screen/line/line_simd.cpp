@@ -9,9 +9,18 @@
 #include "screen/volumetric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::line {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "screen/line/line_leaf.h"
+#undef LEAF
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
 
+namespace line::HWY_NAMESPACE {
+
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
 using namespace obscura::HWY_NAMESPACE::volumetric;
 using obscura::HWY_NAMESPACE::GatherLanes;
 
@@ -75,13 +84,11 @@ HWY_INLINE void FindTaps(const LineFrame& f, Receivers r, Vec3 n, Vec3 noise, in
       V kx, ky;
       r.Offset(ix, iy, &kx, &ky);
       if constexpr (kNormals) {
-        // A plane that the texel's ray does not hit in front of the camera bounds nothing.
         V q, slope;
         r.Plane(kx, ky, &q, &slope);
-        const V offset = hn::Add(hn::Div(hn::Mul(plane_scale, q), slope), nearer);
         const V zs = hn::Set(d, f.extent[i]);
-        const V bounded = hn::Max(hn::Min(offset, zs), hn::Neg(zs));
-        hn::Store(hn::IfThenElse(hn::Lt(slope, zero), bounded, zs), d, block->plane[v][i]);
+        hn::Store(leaf::plane_bound(hn::Mul(plane_scale, q), slope, nearer, zs), d,
+                  block->plane[v][i]);
       }
       if constexpr (kThickness) {
         const V depth = hn::Mul(r.DepthOfThickness(kx, ky, f.thickness), per_unit);
@@ -147,8 +154,8 @@ void LineRow(const LineFrame& f, int row, int begin, int end, float* out) {
   Row<Kernel>(f, row, begin, end, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::line
+}  // namespace line::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

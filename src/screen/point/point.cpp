@@ -10,24 +10,8 @@ namespace {
 
 class PointMethod final : public Method {
  public:
-  PointMethod(const PointSettings& settings, std::span<const BallSample> pattern) {
-    frame_.view.radius = view::tap_radius(settings.falloff.radius);
-    if (settings.occluder.kind == OccluderKind::kThickness) {
-      frame_.thickness = settings.occluder.thickness;
-    }
-    const bool quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-    auto weight = [&](const BallSample& s) {
-      return quadratic ? s.weight_quadratic : s.weight_constant;
-    };
-    double sum = 0;
-    for (const BallSample& s : pattern) sum += weight(s);
-    frame_.samples = static_cast<int>(pattern.size());
-    for (int i = 0; i < frame_.samples; ++i) {
-      frame_.x[i] = pattern[i].x;
-      frame_.y[i] = pattern[i].y;
-      frame_.z[i] = pattern[i].z;
-      frame_.weight[i] = static_cast<float>(weight(pattern[i]) / sum);
-    }
+  PointMethod(const PointSettings& settings, std::span<const BallSample> pattern)
+      : frame_(point_frame(settings, pattern)) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed, true);
   }
 
@@ -51,6 +35,26 @@ class PointMethod final : public Method {
 };
 
 }  // namespace
+
+PointFrame point_frame(const PointSettings& settings, std::span<const BallSample> pattern) {
+  PointFrame f;
+  f.view.radius = view::tap_radius(settings.falloff.radius);
+  if (settings.occluder.kind == OccluderKind::kThickness) f.thickness = settings.occluder.thickness;
+  const bool quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  auto weight = [&](const BallSample& s) {
+    return quadratic ? s.weight_quadratic : s.weight_constant;
+  };
+  double sum = 0;
+  for (const BallSample& s : pattern) sum += weight(s);
+  f.samples = static_cast<int>(pattern.size());
+  for (int i = 0; i < f.samples; ++i) {
+    f.x[i] = pattern[i].x;
+    f.y[i] = pattern[i].y;
+    f.z[i] = pattern[i].z;
+    f.weight[i] = static_cast<float>(weight(pattern[i]) / sum);
+  }
+  return f;
+}
 
 Status make_point(const PointSettings& settings, std::unique_ptr<Method>* method) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;

@@ -10,6 +10,8 @@
 
 namespace obscura {
 
+struct PointFrame;
+
 // Point sampling of volumetric obscurance, PointPattern::kBall; settings and papers:
 // obscura/point.h. The blur is not part of it (see screen/blurred.h). Writes 1 to background
 // pixels.
@@ -23,6 +25,9 @@ Status make_point(const PointSettings& settings, std::unique_ptr<Method>* method
 // The same with another pattern, of 1 to 64 samples; `settings.samples` does not count.
 Status make_point_with(const PointSettings& settings, std::span<const BallSample> pattern,
                        std::unique_ptr<Method>* method);
+
+// What all frames have in common: the pattern in the units that kernels want, on any device.
+PointFrame point_frame(const PointSettings& settings, std::span<const BallSample> pattern);
 
 }  // namespace obscura
 

@@ -1,0 +1,18 @@
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h. No include guard, for it is included once per
+// SIMD target. The ray of a pixel is (a, b, -1).
+
+// Normals that turn away from the camera more than this (times the ray's length) are bent back to
+// it: a visible surface cannot face away, but an interpolated normal can.
+const float kEdgeOn = -1e-4f;
+
+// How far along its ray, towards the camera, a normal n is bent with n.r = facing.
+LEAF(Real) bend_to_camera(Real facing, Real a, Real b) {
+  Real excess = leaf_max(facing - real(kEdgeOn), real(0.0f));
+  return excess / leaf_fma(a, a, leaf_fma(b, b, real(1.0f)));
+}
+
+// How much deeper than its front the back of an occluder lies that is `thickness` thick along the
+// ray.
+LEAF(Real) depth_of_thickness(Real thickness, Real a, Real b) {
+  return thickness / leaf_sqrt(leaf_fma(a, a, leaf_fma(b, b, real(1.0f))));
+}

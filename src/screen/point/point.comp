@@ -37,7 +37,8 @@ void main() {
   if (kNormals) set_normal(r, normals[p.y * view.visible_width + p.x].xyz);
   vec3 noise = vec3(0.0);
   if (kRotate) {
-    const int k = 3 * ((p.y % kNoise) * kNoise + p.x % kNoise);
+    const ivec2 place = pattern_place(p) % kNoise;
+    const int k = 3 * (place.y * kNoise + place.x);
     noise = vec3(tables[k], tables[k + 1], tables[k + 2]);
   }
   float occupied = 0.0;

@@ -45,6 +45,8 @@ const std::vector<Reproduction>& reproductions() {
 #ifdef OBSCURA_WITH_VULKAN
       {"vulkan-times", "The papers' timing tables on a Vulkan device, pass by pass",
        reproduce_vulkan_times},
+      {"vulkan-bars", "Far field against mipmap at equal time on a Vulkan device",
+       reproduce_vulkan_bars},
 #endif
   };
   return list;

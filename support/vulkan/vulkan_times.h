@@ -9,6 +9,9 @@ namespace obscura::support {
 // their own figures.
 Status reproduce_vulkan_times(const ReproduceContext& context, Report* report, std::string* text);
 
+// The far field's presets against mipmap at equal time on the first Vulkan device.
+Status reproduce_vulkan_bars(const ReproduceContext& context, Report* report, std::string* text);
+
 }  // namespace obscura::support
 
 #endif  // OBSCURA_SUPPORT_VULKAN_VULKAN_TIMES_H_

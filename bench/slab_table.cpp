@@ -92,11 +92,11 @@ void ByTable(const SlabTable& t, const SliceSet& set, float* HWY_RESTRICT out) {
       const M visible = hn::And(hn::Ge(x, zero), hn::Gt(cosine, h.cosine));
       if (!hn::AllFalse(d, visible)) {
         const M clipped = hn::Xor(hn::Lt(slice.nz, zero), hn::Le(cosine, slice.edge_cosine));
-        const V angle = hn::IfThenElse(clipped, slice.edge_angle, om::FastAcos(d, cosine));
+        const V angle = hn::IfThenElse(clipped, slice.edge_angle, om::leaf::fast_acos(cosine));
         const V ex = x, ey = hn::Sub(y, slice.camera);
         const V scale = om::FastInverseSqrt(d, hn::Max(hn::MulAdd(ex, ex, hn::Mul(ey, ey)), tiny));
         const V b = hn::Mul(hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex))), scale);
-        const V c = om::FastAcos(d, hn::Clamp(hn::Mul(ey, scale), hn::Set(d, -1.0f), one));
+        const V c = om::leaf::fast_acos(hn::Clamp(hn::Mul(ey, scale), hn::Set(d, -1.0f), one));
         const V share = hn::Mul(b, om::FastReciprocal(d, hn::Add(b, hn::Set(d, t.radius))));
         const V last = hn::Set(d, static_cast<float>(t.size - 1));
         const Cell cell{hn::Mul(c, hn::Mul(last, hn::Set(d, std::numbers::inv_pi_v<float>))),

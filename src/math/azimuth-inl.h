@@ -12,6 +12,7 @@
 
 #include "hwy/highway.h"
 #include "math/fast-inl.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -68,7 +69,7 @@ HWY_INLINE V AzimuthBetween(D d, const Ray<V>& r, ImageStep low, ImageStep high)
   const V dot = hn::NegMulAdd(AlongRay(d, r, low), AlongRay(d, r, high), hn::Set(d, flat));
   const V length =
       hn::Sqrt(hn::Max(hn::MulAdd(dot, dot, hn::Mul(cross, cross)), hn::Set(d, 1e-30f)));
-  return FastAcos(d, hn::Div(dot, length));
+  return leaf::fast_acos(hn::Div(dot, length));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,6 +8,7 @@
 
 #include "hwy/highway.h"
 #include "math/fast-inl.h"
+#include "math/leaf-inl.h"
 #include "obscura/cone.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +34,7 @@ HWY_INLINE V ConeAngle(D d, bool paper, V mean_length) {
   namespace hn = hwy::HWY_NAMESPACE;
   const V one = hn::Set(d, 1.0f);
   const V c = hn::Min(hn::Max(hn::MulSub(hn::Set(d, 2.0f), mean_length, one), hn::Zero(d)), one);
-  return paper ? hn::Mul(hn::Sub(one, c), hn::Set(d, 1.57079632679f)) : FastAcos(d, c);
+  return paper ? hn::Mul(hn::Sub(one, c), hn::Set(d, 1.57079632679f)) : leaf::fast_acos(c);
 }
 
 // Bent normal and cone from sums with uniform weights. Where nothing is visible, or the visible

@@ -48,26 +48,6 @@ HWY_INLINE V FastExpNegative(D d, V x) {
   return hn::BitCast(d, hn::Add(hn::BitCast(di, p), exponent));
 }
 
-// acos(x) for |x| <= 1, absolute error under 1e-6: sqrt(1 - |x|) times the polynomial of Abramowitz
-// and Stegun 4.4.46, mirrored for x < 0.
-template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE V FastAcos(D d, V x) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const V a = hn::Min(hn::Abs(x), hn::Set(d, 1.0f));
-  V p = hn::Set(d, -0.0012624911f);
-  p = hn::MulAdd(p, a, hn::Set(d, 0.0066700901f));
-  p = hn::MulAdd(p, a, hn::Set(d, -0.0170881256f));
-  p = hn::MulAdd(p, a, hn::Set(d, 0.0308918810f));
-  p = hn::MulAdd(p, a, hn::Set(d, -0.0501743046f));
-  p = hn::MulAdd(p, a, hn::Set(d, 0.0889789874f));
-  p = hn::MulAdd(p, a, hn::Set(d, -0.2145988016f));
-  p = hn::MulAdd(p, a, hn::Set(d, 1.5707963050f));
-  const V rest = hn::Sub(hn::Set(d, 1.0f), a);
-  const V root = hn::Mul(rest, FastInverseSqrt(d, hn::Max(rest, hn::Set(d, 1e-30f))));
-  const V r = hn::Mul(p, root);
-  return hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 3.14159265f), r), r);
-}
-
 // Sine and cosine of |x| <= pi/2 by Taylor polynomials; absolute error under 4e-6.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE void FastSinCos(D d, V x, V& sine, V& cosine) {

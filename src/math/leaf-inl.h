@@ -10,6 +10,7 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
+#include "math/fast-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -24,8 +25,10 @@ HWY_INLINE Real real(float x) { return hn::Set(D(), x); }
 HWY_INLINE Real leaf_neg(Real x) { return hn::Neg(x); }
 HWY_INLINE Real leaf_abs(Real x) { return hn::Abs(x); }
 HWY_INLINE Real leaf_sqrt(Real x) { return hn::Sqrt(x); }
+HWY_INLINE Real leaf_inverse_sqrt(Real x) { return FastInverseSqrt(D(), x); }
 HWY_INLINE Real leaf_log(Real x) { return hn::Log(D(), x); }
 HWY_INLINE Real leaf_fma(Real a, Real b, Real c) { return hn::MulAdd(a, b, c); }
+HWY_INLINE Real leaf_nfma(Real a, Real b, Real c) { return hn::NegMulAdd(a, b, c); }
 HWY_INLINE Real leaf_min(Real a, Real b) { return hn::Min(a, b); }
 HWY_INLINE Real leaf_max(Real a, Real b) { return hn::Max(a, b); }
 HWY_INLINE Real leaf_if_negative(Real x, Real yes, Real no) {
@@ -34,6 +37,7 @@ HWY_INLINE Real leaf_if_negative(Real x, Real yes, Real no) {
 HWY_INLINE Real leaf_copysign(Real magnitude, Real z) { return hn::CopySign(magnitude, z); }
 
 #define LEAF(type) HWY_INLINE type
+#include "math/slab_leaf.h"
 #include "math/sphere_line_leaf.h"
 #undef LEAF
 

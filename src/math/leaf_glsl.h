@@ -5,8 +5,10 @@
 #define leaf_neg(x) (-(x))
 #define leaf_abs abs
 #define leaf_sqrt sqrt
+#define leaf_inverse_sqrt inversesqrt
 #define leaf_log log
 #define leaf_fma fma
+#define leaf_nfma(a, b, c) fma(-(a), b, c)
 #define leaf_min min
 #define leaf_max max
 #define leaf_if_negative(x, yes, no) ((x) < 0.0 ? (yes) : (no))

@@ -47,8 +47,8 @@ HWY_INLINE SectorEdge<V> FindSector(D d, const Slice<V>& s, const Sectors<D>& m,
   const V inverse = FastInverseSqrt(d, square);
   const V c = hn::Min(hn::Max(hn::Mul(y, inverse), hn::Neg(one)), one);
   const V sine = hn::Mul(x, inverse);
-  const V angle = FastAcos(d, c);
-  const V own = CosineIntegral(d, s.nz, s.nt, sine, c, angle);
+  const V angle = leaf::fast_acos(c);
+  const V own = leaf::cosine_integral(s.nz, s.nt, sine, c, angle);
   const auto clipped = hn::Xor(hn::Lt(s.nz, hn::Zero(d)), hn::Le(c, s.edge_cosine));
   const V f = hn::IfThenElse(clipped, s.edge_integral, own);
   const V unit = hn::Mul(hn::Sub(f, m.first), FastReciprocal(d, m.span));
@@ -104,10 +104,10 @@ HWY_INLINE void DirectionsBetween(D d, const Slice<V>& s, const SectorEdge<V>& l
     scale = FastReciprocal(d, hn::Max(lobe, hn::Set(d, 0.05f)));
   }
   V low_x, low_y, high_x, high_y;
-  DirectionIntegral<kSums>(d, s.nz, s.nt, low.sine, low.cosine, low.angle, low_x, low_y);
-  DirectionIntegral<kSums>(d, s.nz, s.nt, high.sine, high.cosine, high.angle, high_x, high_y);
-  const V between = hn::Sub(CosineIntegral(d, s.nz, s.nt, high.sine, high.cosine, high.angle),
-                            CosineIntegral(d, s.nz, s.nt, low.sine, low.cosine, low.angle));
+  DirectionIntegral<kSums>(s.nz, s.nt, low.sine, low.cosine, low.angle, low_x, low_y);
+  DirectionIntegral<kSums>(s.nz, s.nt, high.sine, high.cosine, high.angle, high_x, high_y);
+  const V between = hn::Sub(leaf::cosine_integral(s.nz, s.nt, high.sine, high.cosine, high.angle),
+                            leaf::cosine_integral(s.nz, s.nt, low.sine, low.cosine, low.angle));
   const auto thin = hn::Lt(between, hn::Set(d, 1e-3f));
   const V inverse = FastReciprocal(d, hn::Max(between, tiny));
   x = hn::IfThenElse(thin, hn::Mul(mx, scale), hn::Mul(hn::Sub(high_x, low_x), inverse));

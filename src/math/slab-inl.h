@@ -16,6 +16,7 @@
 #include "hwy/highway.h"
 #include "math/falloff-inl.h"
 #include "math/fast-inl.h"
+#include "math/leaf-inl.h"
 #include "math/slice_sums.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,30 +33,15 @@ struct Slice {
   V perspective;                         // 1, or 0 where view rays are parallel
 };
 
-// F(theta), the integral of (nz cos t + nt sin t) sin t from 0 to theta: what rho = 1 obscures.
-template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE V CosineIntegral(D d, V nz, V nt, V sine, V cosine, V angle) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const V a = hn::Mul(nz, hn::Mul(sine, sine));
-  const V b = hn::Mul(nt, hn::NegMulAdd(sine, cosine, angle));
-  return hn::Mul(hn::Set(d, 0.5f), hn::Add(a, b));
-}
-
-// Antiderivatives at theta of the summed directions, along the tangent and the zenith, each times
-// sin theta, the width of the slice.
-template <SliceSums kSums, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE void DirectionIntegral(D d, V nz, V nt, V sine, V cosine, V angle, V& x, V& y) {
-  namespace hn = hwy::HWY_NAMESPACE;
+// Antiderivatives at theta of the summed directions, along the tangent and the zenith.
+template <SliceSums kSums, class V>
+HWY_INLINE void DirectionIntegral(V nz, V nt, V sine, V cosine, V angle, V& x, V& y) {
   if constexpr (kSums == SliceSums::kUniform) {
-    const V half = hn::Set(d, 0.5f);
-    x = hn::Mul(half, hn::NegMulAdd(sine, cosine, angle));
-    y = hn::Mul(half, hn::Mul(sine, sine));
+    x = leaf::uniform_along(sine, cosine, angle);
+    y = leaf::uniform_zenith(sine);
   } else if constexpr (kSums == SliceSums::kCosine) {
-    const V third = hn::Set(d, 1.0f / 3);
-    const V s3 = hn::Mul(third, hn::Mul(sine, hn::Mul(sine, sine)));
-    const V c3 = hn::Mul(third, hn::Mul(cosine, hn::Mul(cosine, cosine)));
-    x = hn::MulAdd(nz, s3, hn::Mul(nt, hn::Sub(c3, cosine)));
-    y = hn::MulSub(nt, s3, hn::Mul(nz, c3));
+    x = leaf::weighted_along(nz, nt, sine, cosine);
+    y = leaf::weighted_zenith(nz, nt, sine, cosine);
   }
 }
 
@@ -72,8 +58,8 @@ HWY_INLINE Slice<V> MakeSlice(D d, V nz, V nt, V camera, V perspective) {
   s.edge_sine = hn::Mul(hn::Abs(nz), inverse);
   // -nt for a normal that faces the camera, nt for one that has turned away.
   s.edge_cosine = hn::Mul(hn::IfThenElse(hn::Lt(nz, hn::Zero(d)), nt, hn::Neg(nt)), inverse);
-  s.edge_angle = FastAcos(d, s.edge_cosine);
-  s.edge_integral = CosineIntegral(d, nz, nt, s.edge_sine, s.edge_cosine, s.edge_angle);
+  s.edge_angle = leaf::fast_acos(s.edge_cosine);
+  s.edge_integral = leaf::cosine_integral(nz, nt, s.edge_sine, s.edge_cosine, s.edge_angle);
   return s;
 }
 
@@ -82,7 +68,7 @@ template <class D>
 struct Horizon {
   using V = hwy::HWY_NAMESPACE::Vec<D>;
   using M = hwy::HWY_NAMESPACE::Mask<D>;
-  V cosine;                     // of the smallest theta; -2 before the first point
+  V cosine;  // of the smallest theta, less kHorizonSlack; -2 before the first point
   V sine_c, cosine_c, angle_c;  // the same clipped to the hemisphere
   V integral;                   // F at the clipped theta
   V x, y;                       // the point before
@@ -105,8 +91,7 @@ HWY_INLINE Horizon<D> StartHorizon(D d, const Slice<V>& s, bool from_receiver) {
   h.angle_c = hn::IfThenElse(away, pi, s.edge_angle);
   h.integral = hn::IfThenElse(away, hn::Mul(s.nt, hn::Set(d, 1.57079633f)), s.edge_integral);
   h.x = h.y = h.sum = h.sum_x = h.sum_y = h.sum_solid = zero;
-  DirectionIntegral<kSums>(d, s.nz, s.nt, h.sine_c, h.cosine_c, h.angle_c, h.integral_x,
-                           h.integral_y);
+  DirectionIntegral<kSums>(s.nz, s.nt, h.sine_c, h.cosine_c, h.angle_c, h.integral_x, h.integral_y);
   h.chord = from_receiver ? hn::Ge(zero, zero) : hn::Lt(zero, zero);
   return h;
 }
@@ -123,6 +108,9 @@ HWY_INLINE V RhoOf(D d, const math::Rho& rho, V distance) {
 
 // Of the horizon's cosine.
 inline constexpr float kLeastRise = 5e-4f;
+// What lies this little below the horizon is visible: of a plane every point, whatever rounding
+// does.
+inline constexpr float kHorizonSlack = 1e-5f;
 // Half the angle of pieces for which the middle alone is enough.
 inline constexpr float kSmallPiece = 0.25f;
 
@@ -150,30 +138,31 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   const V inverse = FastInverseSqrt(d, square);
   const V cosine = hn::Mul(y, inverse);
   const M visible = hn::And(valid, hn::Gt(cosine, h.cosine));
-  // A cosine that rounding puts above 1 would pass as visible for ever.
-  const V c = hn::Min(cosine, one);
   // What hardly raises the horizon, as all of a plane does, is left to the next point that does;
   // but a share of the width must move it by that share.
-  M raises = hn::Gt(c, hn::Add(h.cosine_c, hn::Set(d, kLeastRise)));
+  M raises = hn::Gt(cosine, hn::Add(h.cosine_c, hn::Set(d, kLeastRise)));
   if constexpr (kPartial) raises = hn::Or(raises, hn::Lt(share, one));
-  if (hn::AllFalse(d, hn::And(visible, raises))) {
-    h.cosine = hn::IfThenElse(visible, c, h.cosine);
+  const M moves = hn::And(visible, raises);
+  const V slack = hn::Set(d, kHorizonSlack);
+  if (hn::AllFalse(d, moves)) {
+    h.cosine = hn::IfThenElse(visible, hn::Sub(cosine, slack), h.cosine);
     h.x = x;
     h.y = y;
     h.chord = visible;
     return;
   }
+  const V c = hn::Min(cosine, one);
   const V sine = hn::Mul(x, inverse);
-  const V angle = FastAcos(d, c);
+  const V angle = leaf::fast_acos(c);
   const M clipped = hn::Xor(hn::Lt(s.nz, zero), hn::Le(c, s.edge_cosine));
   V sine_c = hn::IfThenElse(clipped, s.edge_sine, sine);
   V cosine_c = hn::IfThenElse(clipped, s.edge_cosine, c);
   V angle_c = hn::IfThenElse(clipped, s.edge_angle, angle);
   V integral =
-      hn::IfThenElse(clipped, s.edge_integral, CosineIntegral(d, s.nz, s.nt, sine, c, angle));
+      hn::IfThenElse(clipped, s.edge_integral, leaf::cosine_integral(s.nz, s.nt, sine, c, angle));
   V integral_x, integral_y;
-  DirectionIntegral<kSums>(d, s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
-  const V weight = hn::IfThenElseZero(visible, hn::Max(hn::Sub(h.integral, integral), zero));
+  DirectionIntegral<kSums>(s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
+  const V weight = hn::IfThenElseZero(moves, hn::Max(hn::Sub(h.integral, integral), zero));
   if (!hn::AllFalse(d, hn::Gt(weight, zero))) {
     // rho averaged over the piece by three Gauss points, each with its share of the integral. The
     // distance to a line through the point along e is |p x e| / |w x e|.
@@ -191,24 +180,27 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
     const V im = FastInverseSqrt(d, m2);
     mx = hn::Mul(mx, im);
     my = hn::Mul(my, im);
-    auto node = [&](V wx, V wy, float gauss, V& weights, V& values) HWY_ATTR {
+    auto node = [&](V wx, V wy, V gauss, V& weights, V& values) HWY_ATTR {
       const V denominator = hn::Max(hn::Abs(hn::MulSub(wx, ey, hn::Mul(wy, ex))), tiny);
       const V distance =
           hn::Min(hn::Mul(numerator, FastReciprocal(d, denominator)), hn::Set(d, 1e30f));
       const V lobe = hn::Mul(wx, hn::MulAdd(s.nz, wy, hn::Mul(s.nt, wx)));
-      const V w = hn::Mul(hn::Max(lobe, hn::Set(d, 1e-12f)), hn::Set(d, gauss));
+      const V w = hn::Mul(hn::Max(lobe, hn::Set(d, 1e-12f)), gauss);
       weights = hn::Add(weights, w);
       values = hn::MulAdd(w, RhoOf<kKind>(d, rho, distance), values);
     };
     const V half_piece = hn::Mul(hn::Set(d, 0.5f), hn::Sub(h.angle_c, angle_c));
     V weights = zero, values = zero;
-    node(mx, my, 8.0f / 9, weights, values);
-    if (!hn::AllTrue(d, hn::Lt(half_piece, hn::Set(d, kSmallPiece)))) {
+    node(mx, my, hn::Set(d, 8.0f / 9), weights, values);
+    const M large = hn::Ge(half_piece, hn::Set(d, kSmallPiece));
+    if (!hn::AllFalse(d, large)) {
+      // Nothing in the other lanes, which the middle serves: no pixel depends on its neighbours.
+      const V side = hn::IfThenElseZero(large, hn::Set(d, 5.0f / 9));
       V ds, dc;
       FastSinCos(d, hn::Mul(half_piece, hn::Set(d, 0.774596669f)), ds, dc);
-      node(hn::MulAdd(mx, dc, hn::Mul(my, ds)), hn::NegMulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
+      node(hn::MulAdd(mx, dc, hn::Mul(my, ds)), hn::NegMulAdd(mx, ds, hn::Mul(my, dc)), side,
            weights, values);
-      node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), 5.0f / 9,
+      node(hn::NegMulAdd(my, ds, hn::Mul(mx, dc)), hn::MulAdd(mx, ds, hn::Mul(my, dc)), side,
            weights, values);
     }
     V mean = hn::Mul(values, FastReciprocal(d, weights));
@@ -228,7 +220,7 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
   if constexpr (kPartial) {
     if (!hn::AllFalse(d, hn::And(visible, hn::Lt(share, one)))) {
       // The horizon of the slice as a whole: the mean angle of its covered and its open part.
-      const V old_angle = FastAcos(d, hn::Max(h.cosine, hn::Set(d, -1.0f)));
+      const V old_angle = leaf::fast_acos(hn::Max(hn::Add(h.cosine, slack), hn::Set(d, -1.0f)));
       const M part = hn::Lt(share, one);
       const V mean = hn::MulAdd(share, hn::Sub(angle, old_angle), old_angle);
       V half_sine, half_cosine;
@@ -237,26 +229,27 @@ HWY_INLINE void AddPoint(D d, const math::Rho& rho, const Slice<V>& s, V x, V y,
       const V mean_cosine = hn::NegMulAdd(two, hn::Mul(half_sine, half_sine), one);
       const V mean_sine = hn::Mul(two, hn::Mul(half_sine, half_cosine));
       const M outside = hn::Xor(hn::Lt(s.nz, zero), hn::Le(mean_cosine, s.edge_cosine));
-      const V mean_integral = hn::IfThenElse(
-          outside, s.edge_integral, CosineIntegral(d, s.nz, s.nt, mean_sine, mean_cosine, mean));
+      const V mean_integral =
+          hn::IfThenElse(outside, s.edge_integral,
+                         leaf::cosine_integral(s.nz, s.nt, mean_sine, mean_cosine, mean));
       new_cosine = hn::IfThenElse(part, mean_cosine, c);
       sine_c = hn::IfThenElse(part, hn::IfThenElse(outside, s.edge_sine, mean_sine), sine_c);
       cosine_c =
           hn::IfThenElse(part, hn::IfThenElse(outside, s.edge_cosine, mean_cosine), cosine_c);
       angle_c = hn::IfThenElse(part, hn::IfThenElse(outside, s.edge_angle, mean), angle_c);
       integral = hn::IfThenElse(part, mean_integral, integral);
-      DirectionIntegral<kSums>(d, s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
+      DirectionIntegral<kSums>(s.nz, s.nt, sine_c, cosine_c, angle_c, integral_x, integral_y);
     }
   }
   if constexpr (kSums != SliceSums::kVisibility) {
-    h.integral_x = hn::IfThenElse(visible, integral_x, h.integral_x);
-    h.integral_y = hn::IfThenElse(visible, integral_y, h.integral_y);
+    h.integral_x = hn::IfThenElse(moves, integral_x, h.integral_x);
+    h.integral_y = hn::IfThenElse(moves, integral_y, h.integral_y);
   }
-  h.cosine = hn::IfThenElse(visible, new_cosine, h.cosine);
-  h.sine_c = hn::IfThenElse(visible, sine_c, h.sine_c);
-  h.cosine_c = hn::IfThenElse(visible, cosine_c, h.cosine_c);
-  h.angle_c = hn::IfThenElse(visible, angle_c, h.angle_c);
-  h.integral = hn::IfThenElse(visible, integral, h.integral);
+  h.cosine = hn::IfThenElse(visible, hn::Sub(new_cosine, slack), h.cosine);
+  h.sine_c = hn::IfThenElse(moves, sine_c, h.sine_c);
+  h.cosine_c = hn::IfThenElse(moves, cosine_c, h.cosine_c);
+  h.angle_c = hn::IfThenElse(moves, angle_c, h.angle_c);
+  h.integral = hn::IfThenElse(moves, integral, h.integral);
   h.x = x;
   h.y = y;
   h.chord = visible;

@@ -14,8 +14,6 @@ namespace {
 
 // Matter whose weight is below this is not looked for.
 constexpr float kLeastWeight = 0.04f;
-// Share of the farthest depth.
-constexpr float kLongestEdge = 0.1f;
 constexpr int kRowsPerTask = 8;
 
 // Where rho has fallen to kLeastWeight, to a per cent of that length.
@@ -69,17 +67,10 @@ void set_pattern(const HorizonSettings& s, horizon::Frame* f) {
 
 class HorizonMethod final : public Method {
  public:
-  HorizonMethod(const HorizonSettings& settings, math::Rho rho, int width, int height)
-      : settings_(settings), rho_(std::move(rho)) {
+  HorizonMethod(const HorizonSettings& settings, math::Rho rho, const horizon::Frame& frame,
+                int width, int height)
+      : settings_(settings), rho_(std::move(rho)), frame_(frame) {
     frame_.rho = &rho_;
-    frame_.reach = classic() ? settings.falloff.radius : reach_of(rho_);
-    frame_.chord = settings.profile == SlabProfile::kAdaptiveChord;
-    frame_.directions = settings.directions;
-    frame_.steps = settings.steps;
-    frame_.interleave = settings.interleave;
-    frame_.bias_sine = std::sin(settings.angle_bias);
-    frame_.bias_cosine = std::cos(settings.angle_bias);
-    set_pattern(settings, &frame_);
     sums_.resize(width, height);
   }
 
@@ -139,7 +130,7 @@ class HorizonMethod final : public Method {
     });
     if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
     // A radius without end tells nothing of where one surface ends and another begins.
-    const float edge = std::min(rho_.radius, kLongestEdge * g.max_depth);
+    const float edge = std::min(rho_.radius, horizon::kLongestEdge * g.max_depth);
     context.timer.time("blur", [&] {
       sums_.resolve(g,
                     {.sums = kind,
@@ -160,16 +151,31 @@ class HorizonMethod final : public Method {
 
 }  // namespace
 
-Status make_horizon(const HorizonSettings& settings, int width, int height,
-                    std::unique_ptr<Method>* method) {
+Status make_horizon_frame(const HorizonSettings& settings, math::Rho* rho, horizon::Frame* f) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(settings.falloff); !s.ok()) return s;
-  if (settings.variant == HorizonVariant::kClassic && !std::isfinite(settings.falloff.radius)) {
+  const bool classic = settings.variant == HorizonVariant::kClassic;
+  if (classic && !std::isfinite(settings.falloff.radius)) {
     return invalid_argument("radius is inf; the classic horizon method needs a finite one");
   }
+  if (Status s = math::make_rho(settings.falloff, rho); !s.ok()) return s;
+  f->reach = classic ? settings.falloff.radius : reach_of(*rho);
+  f->chord = settings.profile == SlabProfile::kAdaptiveChord;
+  f->directions = settings.directions;
+  f->steps = settings.steps;
+  f->interleave = settings.interleave;
+  f->bias_sine = std::sin(settings.angle_bias);
+  f->bias_cosine = std::cos(settings.angle_bias);
+  set_pattern(settings, f);
+  return {};
+}
+
+Status make_horizon(const HorizonSettings& settings, int width, int height,
+                    std::unique_ptr<Method>* method) {
   math::Rho rho;
-  if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;
-  *method = std::make_unique<HorizonMethod>(settings, std::move(rho), width, height);
+  horizon::Frame frame;
+  if (Status s = make_horizon_frame(settings, &rho, &frame); !s.ok()) return s;
+  *method = std::make_unique<HorizonMethod>(settings, std::move(rho), frame, width, height);
   return {};
 }
 

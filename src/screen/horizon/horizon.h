@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "math/falloff.h"
 #include "obscura/horizon.h"
+#include "screen/horizon/horizon_kernel.h"
 #include "screen/method.h"
 
 namespace obscura {
@@ -12,6 +14,9 @@ namespace obscura {
 // the whole depth image.
 Status make_horizon(const HorizonSettings& settings, int width, int height,
                     std::unique_ptr<Method>* method);
+
+// Checks the settings and prepares what does not change from frame to frame.
+Status make_horizon_frame(const HorizonSettings& settings, math::Rho* rho, horizon::Frame* frame);
 
 }  // namespace obscura
 

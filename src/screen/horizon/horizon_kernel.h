@@ -12,6 +12,9 @@ inline constexpr int kMaxDirections = 64;
 using directional::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
+// The blur's longest edge, as a share of the farthest depth.
+inline constexpr float kLongestEdge = 0.1f;
+
 // What differs from pixel to pixel of the tile.
 enum TileValue {
   kTileCos,  // rotation of the directions

@@ -255,13 +255,13 @@ HWY_INLINE void AddConstantSlice(const Frame& f, const Receiver& r, const Line& 
   });
   cosine = hn::Min(cosine, one);
   const V sine = hn::Sqrt(hn::NegMulAdd(cosine, cosine, one));
-  const V angle = om::FastAcos(d, cosine);
-  const V open = om::CosineIntegral(d, slice.nz, slice.nt, sine, cosine, angle);
+  const V angle = om::leaf::fast_acos(cosine);
+  const V open = om::leaf::cosine_integral(slice.nz, slice.nt, sine, cosine, angle);
   sum->visibility = hn::Add(sum->visibility, hn::Sub(slice.edge_integral, open));
   if constexpr (kSums != SliceSums::kVisibility) {
     V x, y, edge_x, edge_y;
-    om::DirectionIntegral<kSums>(d, slice.nz, slice.nt, sine, cosine, angle, x, y);
-    om::DirectionIntegral<kSums>(d, slice.nz, slice.nt, slice.edge_sine, slice.edge_cosine,
+    om::DirectionIntegral<kSums>(slice.nz, slice.nt, sine, cosine, angle, x, y);
+    om::DirectionIntegral<kSums>(slice.nz, slice.nt, slice.edge_sine, slice.edge_cosine,
                                  slice.edge_angle, edge_x, edge_y);
     AddDirection(turn, hn::Sub(edge_x, x), hn::Sub(edge_y, y), sum);
     sum->solid = hn::Add(sum->solid, hn::Sub(cosine, slice.edge_cosine));

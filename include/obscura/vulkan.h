@@ -11,7 +11,7 @@
 
 // Estimators on the caller's Vulkan device, recorded into the caller's command buffer. Vulkan 1.1
 // and the feature shaderStorageImageWriteWithoutFormat; nothing is linked against the loader.
-// Methods so far: line.
+// docs/vulkan.md lists the methods.
 namespace obscura::vulkan {
 
 // The caller's; must outlive every Recorder made from it.

@@ -26,17 +26,18 @@ class VulkanTest : public ::testing::Test {
   static void TearDownTestSuite() { delete vulkan_; }
   void SetUp() override { ASSERT_TRUE(status_.ok()) << status_.message(); }
 
-  // Mean difference at most 0.1 %, 99.9 % of the pixels within 1/255.
+  // Mean difference at most 0.1 %, 99.9 % of the pixels within 1/255. `step` is what lies between
+  // two values that the format can hold, where that is more than it is for visibility.
   static void expect_close(std::span<const float> cpu, std::span<const float> gpu,
-                           const std::string& what) {
+                           const std::string& what, double step = 0) {
     double sum = 0;
     std::size_t close = 0;
     for (std::size_t i = 0; i < cpu.size(); ++i) {
       const double difference = std::abs(double{cpu[i]} - gpu[i]);
       sum += difference;
-      close += difference <= 1.0 / 255;
+      close += difference <= 1.0 / 255 + step / 2;
     }
-    EXPECT_LE(sum / cpu.size(), 0.001) << what;
+    EXPECT_LE(sum / cpu.size(), 0.001 + step / 4) << what;
     EXPECT_GE(double(close), 0.999 * cpu.size()) << what;
   }
 
@@ -70,7 +71,9 @@ class VulkanTest : public ::testing::Test {
           if (images[0][0][k] < 0.02f) images[i][c][k] = 0;
         }
       }
-      expect_close(images[0][c], images[1][c], what + ", " + kNames[c]);
+      const bool coarse = c > 0 && frame.output == support::VulkanFormat::kR8;
+      const double step = !coarse ? 0 : (c == 4 ? 1.57079633 : 2.0) / 255;
+      expect_close(images[0][c], images[1][c], what + ", " + kNames[c], step);
     }
     EXPECT_FALSE(times.passes.empty());
     for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;

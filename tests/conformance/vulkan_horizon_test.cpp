@@ -3,11 +3,14 @@
 namespace obscura {
 namespace {
 
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
 using VulkanHorizon = VulkanTest;
 
-HorizonSettings horizon(float radius) {
+HorizonSettings horizon(HorizonVariant variant = HorizonVariant::kSlices) {
   HorizonSettings s;
-  s.falloff.radius = radius;
+  s.falloff.radius = 0.7f;
+  s.variant = variant;
   return s;
 }
 
@@ -19,20 +22,89 @@ synthetic::Input scene(int width, int height, std::uint64_t seed, bool orthograp
 }
 
 TEST_F(VulkanHorizon, SlicesAgreeForEveryFalloffAndProfile) {
-  const synthetic::Input in = scene(96, 64, 3);
-  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential,
-                           FalloffKind::kQuadratic, FalloffKind::kInverseSquare}) {
+  const synthetic::Input in = scene(80, 50, 3);
+  Falloff table{.kind = FalloffKind::kTable, .radius = 2};
+  table.table = {1, 0.9f, 0.3f, 0.1f};
+  Falloff function{.kind = FalloffKind::kFunction};
+  function.function = [](float d) { return 1 / (1 + 3 * d); };
+  for (const Falloff& falloff :
+       {Falloff{.kind = FalloffKind::kConstant, .radius = 0.7f},
+        Falloff{.kind = FalloffKind::kExponential, .radius = 0.7f},
+        Falloff{.kind = FalloffKind::kQuadratic, .radius = 1.5f},
+        Falloff{.kind = FalloffKind::kInverseSquare, .radius = 0.3f},
+        Falloff{.kind = FalloffKind::kConstant, .radius = kInf}, table, function}) {
     for (SlabProfile profile : {SlabProfile::kSlab, SlabProfile::kAdaptiveChord}) {
-      HorizonSettings s = horizon(0.7f);
-      s.falloff.kind = kind;
+      HorizonSettings s = horizon();
+      s.falloff = falloff;
       s.profile = profile;
       s.blur = false;
       const std::string what =
-          "kind " + std::to_string(int(kind)) + " profile " + std::to_string(int(profile));
+          "kind " + std::to_string(int(falloff.kind)) + " profile " + std::to_string(int(profile));
       expect_same(in.field(), s, what);
       expect_same(in.field(), s, what + " directions", true);
     }
   }
+}
+
+TEST_F(VulkanHorizon, AgreesForEveryPatternWithBlurAndWithout) {
+  const synthetic::Input in = scene(61, 43, 8);
+  for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+    for (int interleave : {1, 2, 3, 4, 8}) {
+      for (bool blur : {false, true}) {
+        HorizonSettings s = horizon(variant);
+        s.interleave = interleave;
+        s.blur = blur;
+        s.directions = 2 + interleave;
+        s.steps = interleave == 8 ? 1 : 6;
+        s.cone = blur ? ConeEstimate::kPaper : ConeEstimate::kExact;
+        const std::string what = "variant " + std::to_string(int(variant)) + " m " +
+                                 std::to_string(interleave) + " blur " + std::to_string(blur);
+        expect_same(in.field(), s, what, blur);
+      }
+    }
+  }
+}
+
+TEST_F(VulkanHorizon, OddSizesGuardBandsAndParallelViews) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {33, 45}}) {
+    for (bool orthographic : {false, true}) {
+      for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
+        synthetic::Input in = scene(w, h, 2, orthographic);
+        if (w > 2 && h > 2) in.guard_band = GuardBand::symmetric(1, 1);
+        expect_same(in.field(), horizon(variant), std::to_string(w) + "x" + std::to_string(h),
+                    true);
+      }
+    }
+  }
+}
+
+// A radius without end: the blur keeps apart what a share of the farthest depth lies between.
+TEST_F(VulkanHorizon, TheFarthestDepthBoundsTheBlur) {
+  const synthetic::Input in = scene(60, 44, 4);
+  HorizonSettings s = horizon();
+  s.falloff = {.kind = FalloffKind::kConstant, .radius = kInf};
+  expect_same(in.field(), s, "infinite radius");
+  expect_same(in.field(), s, "infinite radius, directions", true);
+}
+
+TEST_F(VulkanHorizon, EveryFormat) {
+  const synthetic::Input in = scene(64, 48, 6);
+  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+    expect_same(in.field(), horizon(), "format " + std::to_string(int(format)), true,
+                {.output = format});
+  }
+}
+
+TEST_F(VulkanHorizon, WhatCannotRunIsRefused) {
+  const synthetic::Input in = scene(16, 16, 1);
+  std::vector<float> out(256);
+  const Outputs outputs{.visibility = {out.data(), 16, 16}};
+  DepthField field = in.field();
+  field.normal_use = NormalUse::kNone;
+  EXPECT_EQ(vulkan_->run(field, horizon(), outputs).code(), StatusCode::kUnsupported);
+  HorizonSettings s = horizon(HorizonVariant::kClassic);
+  s.falloff.radius = kInf;
+  EXPECT_FALSE(vulkan_->run(in.field(), s, outputs).ok());
 }
 
 }  // namespace

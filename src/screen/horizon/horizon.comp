@@ -189,7 +189,8 @@ void main() {
   const Receiver r = make_receiver(at, z < kInf ? z : 1.0, n);
   const float perspective = view.orthographic != 0 ? 0.0 : 1.0;
   const float camera = view.orthographic != 0 ? 1.0 : r.z * r.ray_length;
-  const int tile = 3 * (kDirections + (p.y % kInterleave) * kInterleave + p.x % kInterleave);
+  const ivec2 place = pattern_place(p) % kInterleave;
+  const int tile = 3 * (kDirections + place.y * kInterleave + place.x);
   const vec2 tile_turn = vec2(tables[tile], tables[tile + 1]);
   float visibility = 0.0, solid = 0.0, zenith = 0.0;
   vec2 tangents = vec2(0.0);

@@ -72,17 +72,9 @@ void set_pattern(const HemisphereSettings& s, hemisphere::Frame* f) {
 
 class HemisphereMethod final : public Method {
  public:
-  HemisphereMethod(const HemisphereSettings& settings, int width, int height)
-      : settings_(settings) {
-    frame_.radius = std::clamp(settings.falloff.radius, 1e-30f, 1e30f);
-    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-    if (settings.occluder.kind == OccluderKind::kThickness) {
-      frame_.thickness = settings.occluder.thickness;
-    }
-    frame_.samples = settings.samples;
-    frame_.tests = settings.steps + 1;
-    frame_.interleave = settings.interleave;
-    set_pattern(settings, &frame_);
+  HemisphereMethod(const HemisphereSettings& settings, const hemisphere::Frame& frame, int width,
+                   int height)
+      : settings_(settings), frame_(frame) {
     if (settings.radiance) set_light();
     sums_.resize(width, height);
   }
@@ -213,11 +205,26 @@ class HemisphereMethod final : public Method {
 
 }  // namespace
 
-Status make_hemisphere(const HemisphereSettings& settings, int width, int height,
-                       std::unique_ptr<Method>* method) {
+Status make_hemisphere_frame(const HemisphereSettings& settings, hemisphere::Frame* f) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  *method = std::make_unique<HemisphereMethod>(settings, width, height);
+  f->radius = std::clamp(settings.falloff.radius, 1e-30f, 1e30f);
+  f->quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  if (settings.occluder.kind == OccluderKind::kThickness) {
+    f->thickness = settings.occluder.thickness;
+  }
+  f->samples = settings.samples;
+  f->tests = settings.steps + 1;
+  f->interleave = settings.interleave;
+  set_pattern(settings, f);
+  return {};
+}
+
+Status make_hemisphere(const HemisphereSettings& settings, int width, int height,
+                       std::unique_ptr<Method>* method) {
+  hemisphere::Frame frame;
+  if (Status s = make_hemisphere_frame(settings, &frame); !s.ok()) return s;
+  *method = std::make_unique<HemisphereMethod>(settings, frame, width, height);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "obscura/hemisphere.h"
+#include "screen/hemisphere/hemisphere_kernel.h"
 #include "screen/method.h"
 
 namespace obscura {
@@ -11,6 +12,9 @@ namespace obscura {
 // See obscura/hemisphere.h. `width` x `height` is the largest image to come.
 Status make_hemisphere(const HemisphereSettings& settings, int width, int height,
                        std::unique_ptr<Method>* method);
+
+// Checks the settings and prepares what does not change from frame to frame.
+Status make_hemisphere_frame(const HemisphereSettings& settings, hemisphere::Frame* frame);
 
 }  // namespace obscura
 

@@ -1,0 +1,92 @@
+#include "tests/conformance/vulkan_fixture.h"
+
+namespace obscura {
+namespace {
+
+using VulkanHemisphere = VulkanTest;
+
+HemisphereSettings hemisphere() {
+  HemisphereSettings s;
+  s.falloff.radius = 0.7f;
+  return s;
+}
+
+synthetic::Input scene(int width, int height, std::uint64_t seed, bool orthographic = false) {
+  return synthetic::blocks(width, height,
+                           orthographic ? Camera::orthographic_height(4, width, height)
+                                        : Camera::perspective(1, width, height),
+                           seed);
+}
+
+TEST_F(VulkanHemisphere, AgreesForEverySetting) {
+  const synthetic::Input in = scene(80, 50, 3);
+  for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kQuadratic}) {
+    for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.3f)}) {
+      for (RayWeighting weighting : {RayWeighting::kCosine, RayWeighting::kUniform}) {
+        HemisphereSettings s = hemisphere();
+        s.falloff.kind = kind;
+        s.occluder = occluder;
+        s.weighting = weighting;
+        s.blur = false;
+        const std::string what = "kind " + std::to_string(int(kind)) + " occluder " +
+                                 std::to_string(int(occluder.kind)) + " weighting " +
+                                 std::to_string(int(weighting));
+        expect_same(in.field(), s, what);
+        s.blur = true;
+        expect_same(in.field(), s, what + " directions", true);
+      }
+    }
+  }
+}
+
+TEST_F(VulkanHemisphere, AgreesForEveryPattern) {
+  const synthetic::Input in = scene(61, 43, 8);
+  for (int interleave : {1, 2, 3, 4, 8}) {
+    for (int steps : {0, 5}) {
+      HemisphereSettings s = hemisphere();
+      s.interleave = interleave;
+      s.steps = steps;
+      s.samples = 2 + 3 * interleave;
+      s.cone = steps > 0 ? ConeEstimate::kPaper : ConeEstimate::kExact;
+      expect_same(in.field(), s,
+                  "m " + std::to_string(interleave) + " steps " + std::to_string(steps), true);
+    }
+  }
+}
+
+TEST_F(VulkanHemisphere, OddSizesGuardBandsAndParallelViews) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {33, 45}}) {
+    for (bool orthographic : {false, true}) {
+      synthetic::Input in = scene(w, h, 2, orthographic);
+      if (w > 2 && h > 2) in.guard_band = GuardBand::symmetric(1, 1);
+      HemisphereSettings s = hemisphere();
+      s.occluder = Occluder::of_thickness(0.5f);
+      const std::string what = std::to_string(w) + "x" + std::to_string(h);
+      expect_same(in.field(), hemisphere(), what, true);
+      expect_same(in.field(), s, what + " thickness");
+    }
+  }
+}
+
+TEST_F(VulkanHemisphere, EveryFormat) {
+  const synthetic::Input in = scene(64, 48, 6);
+  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+    expect_same(in.field(), hemisphere(), "format " + std::to_string(int(format)), true,
+                {.output = format});
+  }
+}
+
+TEST_F(VulkanHemisphere, WhatCannotRunIsRefused) {
+  const synthetic::Input in = scene(16, 16, 1);
+  std::vector<float> out(256);
+  const Outputs outputs{.visibility = {out.data(), 16, 16}};
+  DepthField field = in.field();
+  field.normal_use = NormalUse::kNone;
+  EXPECT_EQ(vulkan_->run(field, hemisphere(), outputs).code(), StatusCode::kUnsupported);
+  HemisphereSettings s = hemisphere();
+  s.falloff.kind = FalloffKind::kExponential;
+  EXPECT_FALSE(vulkan_->run(in.field(), s, outputs).ok());
+}
+
+}  // namespace
+}  // namespace obscura

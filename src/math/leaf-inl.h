@@ -26,6 +26,8 @@ HWY_INLINE Real leaf_neg(Real x) { return hn::Neg(x); }
 HWY_INLINE Real leaf_abs(Real x) { return hn::Abs(x); }
 HWY_INLINE Real leaf_sqrt(Real x) { return hn::Sqrt(x); }
 HWY_INLINE Real leaf_inverse_sqrt(Real x) { return FastInverseSqrt(D(), x); }
+// To the last bits but one; x is normal.
+HWY_INLINE Real leaf_reciprocal(Real x) { return FastReciprocal(D(), x); }
 HWY_INLINE Real leaf_log(Real x) { return hn::Log(D(), x); }
 HWY_INLINE Real leaf_fma(Real a, Real b, Real c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Real leaf_nfma(Real a, Real b, Real c) { return hn::NegMulAdd(a, b, c); }

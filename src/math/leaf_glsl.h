@@ -6,6 +6,7 @@
 #define leaf_abs abs
 #define leaf_sqrt sqrt
 #define leaf_inverse_sqrt inversesqrt
+#define leaf_reciprocal(x) (1.0 / (x))
 #define leaf_log log
 #define leaf_fma fma
 #define leaf_nfma(a, b, c) fma(-(a), b, c)

@@ -39,13 +39,14 @@ VisibilityTarget VolumetricTargets::target(bool to_image, std::uint32_t combine)
 void add_sampling(Pass pass, std::span<const std::uint32_t> constants, const FrameShape& shape,
                   const Geometry& g, const VisibilityTarget& target, std::span<const float> pattern,
                   Program* program) {
-  pass.push = {program->add_table(pattern)};
+  pass.push.insert(pass.push.begin(), program->add_table(pattern));
   pass.constants = target.constants;
   pass.constants.insert(pass.constants.end(), constants.begin(), constants.end());
-  pass.slots = target.slots;
+  std::vector<Slot> slots = target.slots;
   for (int region : {g.depth, g.normals >= 0 ? g.normals : g.depth, program->table_region}) {
-    pass.slots.push_back(Slot::of(region));
+    slots.push_back(Slot::of(region));
   }
+  pass.slots.insert(pass.slots.begin(), slots.begin(), slots.end());
   pass.width = visible_width(shape);
   pass.height = visible_height(shape);
   program->passes.push_back(std::move(pass));

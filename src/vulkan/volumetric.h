@@ -34,8 +34,9 @@ class VolumetricTargets {
   int region_;
 };
 
-// What the passes of one radius share: the pass is given its name, shader, radius and thickness;
-// `constants` come after those of the target, and so do depth, normals and tables.
+// Adds the pass of one radius, which is given by its name, shader, radius, thickness and what only
+// it has: `constants` come after the target's, its slots after the target's, depth, normals and
+// tables, its push constants after where `pattern` starts in the tables.
 void add_sampling(Pass pass, std::span<const std::uint32_t> constants, const FrameShape& shape,
                   const Geometry& g, const VisibilityTarget& target, std::span<const float> pattern,
                   Program* program);

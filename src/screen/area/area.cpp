@@ -15,19 +15,36 @@
 namespace obscura {
 namespace {
 
+void set_pattern(std::span<const DiskSample> pattern, AreaFrame* frame) {
+  AreaFrame& f = *frame;
+  f.samples = static_cast<int>(pattern.size());
+  double sum = 0;
+  auto weight = [&](const DiskSample& s) {
+    return f.quadratic ? s.weight_quadratic : s.weight_constant;
+  };
+  for (const DiskSample& s : pattern) sum += weight(s);
+  for (int i = 0; i < f.samples; ++i) {
+    const DiskSample& s = pattern[i];
+    const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
+    const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
+    const double half = f.quadratic ? math::quadratic_line(extent, lateral) : extent;
+    f.x[i] = s.x;
+    f.y[i] = s.y;
+    f.lateral[i] = std::max(static_cast<float>(lateral), 1e-6f);
+    f.extent[i] = static_cast<float>(extent);
+    f.half[i] = static_cast<float>(half);
+    f.weight[i] = static_cast<float>(weight(s) / sum / (2 * half));
+    // The cell's volume over its sample's extent is about its area A; a disk of that area has a
+    // deviation of sqrt(A / 4 pi), level l's kernel one of about 2^l / sqrt(3) pixels.
+    const double area = s.weight_constant / (2 * extent);
+    f.level[i] = static_cast<float>(std::log2(std::sqrt(3 * area / (4 * std::numbers::pi))));
+  }
+}
+
 class AreaMethod final : public Method {
  public:
-  AreaMethod(const AreaSettings& settings, int width, int height) {
-    frame_.view.radius = view::tap_radius(settings.falloff.radius);
-    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-    if (settings.occluder.kind == OccluderKind::kThickness) {
-      frame_.thickness = settings.occluder.thickness;
-    }
-    set_pattern(disk_pattern(settings.samples, settings.center));
+  AreaMethod(const AreaSettings& settings, int width, int height) : frame_(area_frame(settings)) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
-    for (int l = 0; l <= kLevelTable; ++l) {
-      frame_.width[l] = static_cast<float>(MomentPyramid::kernel_width(l));
-    }
     pyramid_.resize(width, height);
   }
 
@@ -52,38 +69,24 @@ class AreaMethod final : public Method {
   }
 
  private:
-  void set_pattern(std::span<const DiskSample> pattern) {
-    AreaFrame& f = frame_;
-    f.samples = static_cast<int>(pattern.size());
-    double sum = 0;
-    auto weight = [&](const DiskSample& s) {
-      return f.quadratic ? s.weight_quadratic : s.weight_constant;
-    };
-    for (const DiskSample& s : pattern) sum += weight(s);
-    for (int i = 0; i < f.samples; ++i) {
-      const DiskSample& s = pattern[i];
-      const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
-      const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
-      const double half = f.quadratic ? math::quadratic_line(extent, lateral) : extent;
-      f.x[i] = s.x;
-      f.y[i] = s.y;
-      f.lateral[i] = std::max(static_cast<float>(lateral), 1e-6f);
-      f.extent[i] = static_cast<float>(extent);
-      f.half[i] = static_cast<float>(half);
-      f.weight[i] = static_cast<float>(weight(s) / sum / (2 * half));
-      // The cell's volume over its sample's extent is about its area A; a disk of that area has a
-      // deviation of sqrt(A / 4 pi), level l's kernel one of about 2^l / sqrt(3) pixels.
-      const double area = s.weight_constant / (2 * extent);
-      f.level[i] = static_cast<float>(std::log2(std::sqrt(3 * area / (4 * std::numbers::pi))));
-    }
-  }
-
   AreaFrame frame_;
   ReflectionNoise noise_;
   MomentPyramid pyramid_;
 };
 
 }  // namespace
+
+AreaFrame area_frame(const AreaSettings& settings) {
+  AreaFrame f;
+  f.view.radius = view::tap_radius(settings.falloff.radius);
+  f.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  if (settings.occluder.kind == OccluderKind::kThickness) f.thickness = settings.occluder.thickness;
+  set_pattern(disk_pattern(settings.samples, settings.center), &f);
+  for (int l = 0; l <= kLevelTable; ++l) {
+    f.width[l] = static_cast<float>(MomentPyramid::kernel_width(l));
+  }
+  return f;
+}
 
 Status make_area(const AreaSettings& settings, int width, int height,
                  std::unique_ptr<Method>* method) {

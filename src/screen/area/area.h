@@ -8,6 +8,8 @@
 
 namespace obscura {
 
+struct AreaFrame;
+
 // Area sampling of volumetric obscurance; settings and paper: obscura/area.h. The blur is not part
 // of it (see screen/blurred.h). Writes 1 to background pixels.
 //
@@ -16,6 +18,9 @@ namespace obscura {
 // plane's own. A plane thus gives 1 though its depths have a deviation.
 Status make_area(const AreaSettings& settings, int width, int height,
                  std::unique_ptr<Method>* method);
+
+// What all frames have in common: the pattern in the units that kernels want, on any device.
+AreaFrame area_frame(const AreaSettings& settings);
 
 }  // namespace obscura
 

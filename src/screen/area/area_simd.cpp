@@ -10,36 +10,30 @@
 #include "screen/volumetric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::area {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "screen/area/area_leaf.h"
+#undef LEAF
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
 
+namespace area::HWY_NAMESPACE {
+
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
 using namespace obscura::HWY_NAMESPACE::volumetric;
 using obscura::HWY_NAMESPACE::GatherQuads;
 
-// Deviations below this many radii count as this: it keeps quotients finite.
-constexpr float kLeastDeviation = 1e-3f;
-constexpr float kMaxOffset = 1e30f;  // in radii
+using leaf::kLeastDeviation;
+using leaf::kMaxOffset;
 
 // Integral of rho(z) (end - z) from lo to hi.
 HWY_INLINE V Ramp(const ConstantRho&, V lo, V hi, V end) {
-  return hn::Mul(hn::Sub(hi, lo), hn::NegMulAdd(hn::Set(D(), 0.5f), hn::Add(lo, hi), end));
+  return leaf::constant_ramp(lo, hi, end);
 }
 HWY_INLINE V Ramp(const QuadraticRho& rho, V lo, V hi, V end) {
-  // The integral of z (1 - s)^2 is s^2/2 - 2 s^3/3 + s^4/4 with s^2 = l^2 + z^2.
-  auto first = [&](V z) HWY_ATTR {
-    const D d;
-    const V square = hn::MulAdd(z, z, hn::Mul(rho.lateral, rho.lateral)), s = hn::Sqrt(square);
-    const V inner = hn::MulAdd(square, hn::Set(d, 0.25f),
-                               hn::NegMulAdd(s, hn::Set(d, 2.0f / 3), hn::Set(d, 0.5f)));
-    return hn::Mul(square, inner);
-  };
-  return hn::MulSub(end, hn::Sub(rho(hi), rho(lo)), hn::Sub(first(hi), first(lo)));
-}
-
-// 1 / v to the last bits but one, for normal v.
-HWY_INLINE V Reciprocal(V v) {
-  const V guess = hn::ApproximateReciprocal(v);
-  return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(D(), 2.0f)));
+  return leaf::quadratic_ramp(lo, hi, end, rho(lo), rho(hi), rho.lateral);
 }
 
 // Section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma, as a z + b with
@@ -48,7 +42,7 @@ template <class Rho>
 HWY_INLINE V Integral(const Rho& rho, V mu, V sigma, V zs, V half) {
   const V minus_zs = hn::Neg(zs), start = hn::Sub(mu, sigma), end = hn::Add(mu, sigma);
   const V lo = hn::Max(hn::Min(start, zs), minus_zs), hi = hn::Max(hn::Min(end, zs), minus_zs);
-  const V per_width = Reciprocal(hn::Add(sigma, sigma));
+  const V per_width = leaf::leaf_reciprocal(hn::Add(sigma, sigma));
   return hn::MulAdd(Ramp(rho, lo, hi, end), per_width, hn::Add(rho(lo), half));
 }
 
@@ -158,29 +152,12 @@ struct PlaneUnderKernel {
         gradient(hn::Sqrt(hn::MulAdd(r.plane_x, r.plane_x, hn::Mul(r.plane_y, r.plane_y)))) {}
 
   // Under the kernel between levels `level` and level + 1, (kx, ky) pixels from the receiver.
-  HWY_INLINE void Moments(const Receivers& r, VI level, V blend, V kx, V ky, V* mean,
-                          V* deviation) const {
-    const D d;
-    const V far = hn::Set(d, kMaxOffset);
+  HWY_INLINE leaf::PlaneMoments Moments(const Receivers& r, VI level, V blend, V kx, V ky) const {
     V q, slope;
     r.Plane(kx, ky, &q, &slope);
-    const V width0 = LookUp<V>(f.width, level), width1 = LookUp<V>(f.width + 1, level);
-    const V width = hn::MulAdd(blend, hn::Sub(width1, width0), width0);
-    const V variance = hn::MulAdd(hn::Mul(blend, hn::Sub(width1, width0)), hn::Add(width1, width0),
-                                  hn::Mul(width0, width0));
-    // In perspective the plane's depth is z facing / slope, and bends: its mean lies deeper by the
-    // square of its relative deviation.
-    const V per_slope = Reciprocal(slope);
-    const V offset = hn::Mul(hn::Mul(r.distance, q), per_slope);
-    const V per_pixel = hn::Mul(gradient, hn::Abs(per_slope));
-    const V depth = f.view.camera.orthographic ? r.distance : hn::Add(r.z, offset);
-    const V bend = hn::Mul(hn::Mul(r.perspective, hn::Mul(per_pixel, per_pixel)), depth);
-    // A plane that a ray does not hit in front of the camera bounds nothing.
-    const auto hits = hn::Lt(slope, hn::Zero(d));
-    const V middle = hn::Min(hn::Mul(hn::MulAdd(bend, variance, offset), per_radius), far);
-    *mean = hn::IfThenElse(hits, middle, far);
-    const V slant = hn::Min(hn::Mul(hn::Mul(hn::Mul(per_pixel, width), depth), per_radius), far);
-    *deviation = hn::IfThenElse(hits, slant, hn::Zero(d));
+    return leaf::plane_moments(q, slope, gradient, r.distance, r.perspective,
+                               LookUp<V>(f.width, level), LookUp<V>(f.width + 1, level), blend,
+                               per_radius);
   }
 
   const AreaFrame& f;
@@ -218,11 +195,10 @@ HWY_INLINE void FindTaps(const AreaFrame& f, Receivers r, Vec3 n, Vec3 noise, in
     hn::Store(index, DI(), block->index[v][i]);
     hn::Store(blend, d, block->blend[v][i]);
     if constexpr (kNormals) {
-      V mean, deviation;
       r.Offset(px, hn::Sub(py, levels.middle), &kx, &ky);
-      plane.Moments(r, level, blend, kx, ky, &mean, &deviation);
-      hn::Store(mean, d, block->plane[v][i]);
-      hn::Store(deviation, d, block->slant[v][i]);
+      const leaf::PlaneMoments moments = plane.Moments(r, level, blend, kx, ky);
+      hn::Store(moments.mean, d, block->plane[v][i]);
+      hn::Store(moments.deviation, d, block->slant[v][i]);
     }
     if constexpr (kThickness) {
       r.Offset(ix, hn::Sub(iy, levels.middle), &kx, &ky);
@@ -317,8 +293,8 @@ void AreaRow(const AreaFrame& f, int row, int begin, int end, float* out) {
   Row<Kernel>(f, row, begin, end, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::area
+}  // namespace area::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

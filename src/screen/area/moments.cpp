@@ -12,21 +12,19 @@ namespace {
 constexpr int kMargin = 16;  // texels of share 0 beside a row; taps reach 8 far
 constexpr int kRowsPerTask = 8;
 
-int level_size(int size, int level) { return ((size - 1) >> MomentPyramid::shift(level)) + 1; }
-
-int level_count(int width, int height) {
-  // A kernel as wide as the image is the last that says anything.
-  int levels = 1;
-  while (levels < MomentPyramid::kMaxLevels && (4 << levels) < std::max(width, height)) ++levels;
-  return levels;
-}
-
 int padded(int size, int levels) {
   const int step = 1 << MomentPyramid::shift(levels - 1);
   return (size + step - 1) / step * step;
 }
 
 }  // namespace
+
+int MomentPyramid::level_count(int width, int height) {
+  // A kernel as wide as the image is the last that says anything.
+  int levels = 1;
+  while (levels < kMaxLevels && (4 << levels) < std::max(width, height)) ++levels;
+  return levels;
+}
 
 bool MomentPyramid::fits(int width, int height) {
   const int levels = level_count(width, height);

@@ -36,6 +36,10 @@ class MomentPyramid {
 
   using Texel = MomentTexel;
 
+  static int level_count(int width, int height);
+  // Texels that a level has of `size` pixels.
+  static int level_size(int size, int level) { return ((size - 1) >> shift(level)) + 1; }
+
   // For depth images of this size. Whether `resize` would take it: at most 2^28 padded pixels.
   static bool fits(int width, int height);
   void resize(int width, int height);

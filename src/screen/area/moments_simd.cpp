@@ -7,10 +7,16 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "screen/area/moments_leaf.h"
+#undef LEAF
+}  // namespace leaf
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -20,26 +26,20 @@ void MergeMoments(const MomentRow rows[5], int width, float* HWY_RESTRICT share,
   using V = hn::Vec<decltype(d)>;
   constexpr float kWeights[5] = {1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
   const V zero = hn::Zero(d);
-  const V farthest = hn::Set(d, 1e18f);  // so that squares stay finite
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int x = 0; x < width; x += lanes) {
-    V w[5], m[5];
-    V sum = zero, first = zero;
+    V w[5], m[5], v[5];
+    V sum = zero;
     for (int k = 0; k < 5; ++k) {
       w[k] = hn::Mul(hn::Set(d, kWeights[k]), hn::LoadU(d, rows[k].share + x));
       m[k] = hn::LoadU(d, rows[k].mean + x);
+      v[k] = hn::LoadU(d, rows[k].variance + x);
       sum = hn::Add(sum, w[k]);
     }
     const auto any = hn::Gt(sum, zero);
     const V per_sum = hn::IfThenElseZero(any, hn::Div(hn::Set(d, 1.0f), sum));
-    // Relative to the middle row's mean, which is near the result, so that little is rounded.
-    for (int k = 0; k < 5; ++k) first = hn::MulAdd(w[k], hn::Sub(m[k], m[2]), first);
-    const V average = hn::IfThenElseZero(any, hn::MulAdd(first, per_sum, m[2]));
-    V second = zero;
-    for (int k = 0; k < 5; ++k) {
-      const V off = hn::Max(hn::Min(hn::Sub(m[k], average), farthest), hn::Neg(farthest));
-      second = hn::MulAdd(w[k], hn::MulAdd(off, off, hn::LoadU(d, rows[k].variance + x)), second);
-    }
+    const V average = hn::IfThenElseZero(any, leaf::merged_mean(w, m, per_sum));
+    const V second = leaf::merged_variance(w, m, v, average);
     hn::StoreU(sum, d, share + x);
     hn::StoreU(average, d, mean + x);
     hn::StoreU(hn::Mul(second, per_sum), d, variance + x);

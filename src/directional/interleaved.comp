@@ -7,26 +7,27 @@
 #include "math/slab_leaf.h"
 #define PASS_CONSTANTS float longest_edge;
 #include "vulkan/view.glsl"
+#include "vulkan/visibility.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
-layout(constant_id = 0) const int kReach = 2;              // 0: no blur
-layout(constant_id = 1) const bool kHalfOutermost = true;  // the outermost taps' weights
-layout(constant_id = 2) const int kChannels = 1;           // values that are blurred
-layout(constant_id = 3) const bool kOpen = true;           // open_sums holds the visibility
-layout(constant_id = 4) const bool kDirections = false;
+layout(constant_id = 2) const int kReach = 2;              // 0: no blur
+layout(constant_id = 3) const bool kHalfOutermost = true;  // the outermost taps' weights
+layout(constant_id = 4) const int kChannels = 1;           // values that are blurred
+layout(constant_id = 5) const bool kOpen = true;           // open_sums holds the visibility
+layout(constant_id = 6) const bool kDirections = false;
 // The open share that goes with directions is the cosine-weighted visibility.
-layout(constant_id = 5) const bool kCosineOpen = false;
-layout(constant_id = 6) const bool kPaperCone = false;
-layout(constant_id = 7) const bool kUnsigned = false;
-layout(constant_id = 8) const int kFarthest = 0;  // entries of `farthest`; 0: edges are not bounded
+layout(constant_id = 7) const bool kCosineOpen = false;
+layout(constant_id = 8) const bool kPaperCone = false;
+layout(constant_id = 9) const bool kUnsigned = false;
+layout(constant_id = 10) const int kFarthest = 0;  // entries of `farthest`; 0: edges are not bounded
+layout(constant_id = 11) const bool kNormals = true;  // else all are alike
 
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 2) readonly buffer Open { float open_sums[]; };
-layout(binding = 3) readonly buffer Directions { vec4 sums[]; };
-layout(binding = 4) readonly buffer Farthest { float farthest[]; };
-layout(binding = 5) uniform writeonly image2D visibility;
-layout(binding = 6) uniform writeonly image2D bent_normal;
+layout(binding = 2) readonly buffer Depth { float depth[]; };
+layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
+layout(binding = 4) readonly buffer Open { float open_sums[]; };
+layout(binding = 5) readonly buffer Directions { vec4 sums[]; };
+layout(binding = 6) readonly buffer Farthest { float farthest[]; };
+layout(binding = 7) uniform writeonly image2D bent_normal;
 
 const int kTile = 16, kSide = kTile + 2 * kReach, kCells = kSide * kSide;
 const int kThreads = 128;
@@ -45,7 +46,7 @@ void load(ivec2 corner) {
     surface[i] = z < kInf ? (view.orthographic != 0 ? z : 1.0 / z) : 0.0;
     if (!(z < kInf)) continue;
     const int at = p.y * view.visible_width + p.x;
-    const vec3 n = normals[at].xyz;
+    const vec3 n = kNormals ? normals[at].xyz : vec3(0.0, 0.0, 1.0);
     for (int c = 0; c < 3; ++c) normal[c * kCells + i] = n[c];
     if (kOpen) value[i] = open_sums[at];
     if (!kDirections) continue;
@@ -158,7 +159,7 @@ void main() {
     if (p.x >= view.visible_width || p.y >= view.visible_height) continue;
     const int i = (cell.y + kReach) * kSide + cell.x + kReach;
     if (!(surface[i] > 0.0)) {
-      imageStore(visibility, p, vec4(1.0));
+      store_visibility(p, 1.0);
       if (kDirections) store_direction(p, vec3(0.0, 0.0, 1.0), 1.57079633);
       continue;
     }
@@ -168,7 +169,7 @@ void main() {
     } else {
       for (int c = 0; c < kChannels; ++c) result[c] = value[c * kCells + i];
     }
-    imageStore(visibility, p, vec4(clamp(result[kOpen ? 0 : kChannels - 1], 0.0, 1.0)));
+    store_visibility(p, result[kOpen ? 0 : kChannels - 1]);
     if (kDirections) {
       const int c = kChannels - 4;
       finish_direction(p, normal_at(i), vec3(result[c], result[c + 1], result[c + 2]),

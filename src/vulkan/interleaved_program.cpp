@@ -41,25 +41,36 @@ void add_resolution(const FrameShape& shape, const Geometry& geometry, const Sum
   const bool bounded = how.longest_edge > 0 && how.interleave > 1;
   const int reach = how.interleave / 2;
   const int farthest = bounded ? add_farthest(geometry, program) : geometry.depth;
+  const VisibilityTarget target =
+      how.target ? *how.target : VolumetricTargets(shape, {}, false, program).first();
   // Every binding needs something, read or not.
   const Slot open_slot = Slot::of(open ? sums.open : sums.directions);
-  program->passes.push_back(
-      {.name = "blur",
-       .spirv = shaders::interleaved,
-       .constants = {static_cast<std::uint32_t>(reach), how.interleave % 2 == 0,
-                     (open ? 1u : 0u) + (directions ? 4u : 0u), open, directions, how.cosine_open,
-                     how.paper_cone, shape.directions == Directions::kUnsigned,
-                     bounded ? std::uint32_t{kFarthestGroups} : 0u},
-       .slots = {Slot::of(geometry.depth), Slot::of(geometry.normals), open_slot,
-                 directions ? Slot::of(sums.directions) : open_slot, Slot::of(farthest),
-                 Slot::image(Slot::kVisibilityImage),
-                 Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)},
-       .width = visible_width(shape),
-       .height = visible_height(shape),
-       .group_x = kTile,
-       .group_y = kTile,
-       .radius = how.edge,
-       .push = {std::bit_cast<std::uint32_t>(how.longest_edge)}});
+  Pass pass{.name = "blur",
+            .spirv = shaders::interleaved,
+            .constants = target.constants,
+            .slots = target.slots,
+            .width = visible_width(shape),
+            .height = visible_height(shape),
+            .group_x = kTile,
+            .group_y = kTile,
+            .radius = how.edge,
+            .push = {std::bit_cast<std::uint32_t>(how.longest_edge)}};
+  const bool normals = geometry.normals >= 0;
+  for (std::uint32_t constant :
+       {static_cast<std::uint32_t>(reach), std::uint32_t{how.interleave % 2 == 0},
+        (open ? 1u : 0u) + (directions ? 4u : 0u), std::uint32_t{open}, std::uint32_t{directions},
+        std::uint32_t{how.cosine_open}, std::uint32_t{how.paper_cone},
+        std::uint32_t{shape.directions == Directions::kUnsigned},
+        bounded ? std::uint32_t{kFarthestGroups} : 0u, std::uint32_t{normals}}) {
+    pass.constants.push_back(constant);
+  }
+  for (const Slot& slot :
+       {Slot::of(geometry.depth), Slot::of(normals ? geometry.normals : geometry.depth), open_slot,
+        directions ? Slot::of(sums.directions) : open_slot, Slot::of(farthest),
+        Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)}) {
+    pass.slots.push_back(slot);
+  }
+  program->passes.push_back(std::move(pass));
 }
 
 }  // namespace obscura::vulkan

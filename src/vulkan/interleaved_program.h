@@ -1,7 +1,7 @@
 #ifndef OBSCURA_SRC_VULKAN_INTERLEAVED_PROGRAM_H_
 #define OBSCURA_SRC_VULKAN_INTERLEAVED_PROGRAM_H_
 
-#include "vulkan/program.h"
+#include "vulkan/volumetric.h"
 
 namespace obscura::vulkan {
 
@@ -19,6 +19,7 @@ struct Resolution {
   bool paper_cone = false;
   float edge = 0;          // twice the distance over which surfaces are kept apart
   float longest_edge = 0;  // as a share of the farthest depth; 0: not bounded
+  const VisibilityTarget* target = nullptr;  // null: the frame's visibility
 };
 void add_resolution(const FrameShape& shape, const Geometry& geometry, const SumRegions& sums,
                     const Resolution& how, Program* program);

@@ -24,12 +24,12 @@ void add_reflections(bool rotate, std::uint32_t seed, bool space, Program* progr
   program->add_table(table);
 }
 
-VolumetricTargets::VolumetricTargets(const FrameShape& shape, bool dual, Combine combine, bool blur,
+VolumetricTargets::VolumetricTargets(const FrameShape& shape, const DualRadius& dual, bool blur,
                                      Program* program)
-    : dual_(dual), blur_(blur), combine_(combine) {
+    : dual_(dual.second_radius.has_value()), blur_(blur), combine_(dual.combine) {
   const auto pixels = static_cast<VkDeviceSize>(visible_width(shape)) * visible_height(shape);
   // A binding wants a region even where the pass is specialised not to touch it.
-  region_ = program->add_region(dual || blur ? pixels * sizeof(float) : sizeof(float));
+  region_ = program->add_region(dual_ || blur_ ? pixels * sizeof(float) : sizeof(float));
 }
 
 VisibilityTarget VolumetricTargets::target(bool to_image, std::uint32_t combine) const {

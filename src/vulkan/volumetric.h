@@ -1,6 +1,7 @@
 #ifndef OBSCURA_SRC_VULKAN_VOLUMETRIC_H_
 #define OBSCURA_SRC_VULKAN_VOLUMETRIC_H_
 
+#include "obscura/dual_radius.h"
 #include "vulkan/program.h"
 
 namespace obscura::vulkan {
@@ -18,8 +19,7 @@ struct VisibilityTarget {
 // What the passes of one or two radii and the blur hand on.
 class VolumetricTargets {
  public:
-  VolumetricTargets(const FrameShape& shape, bool dual, Combine combine, bool blur,
-                    Program* program);
+  VolumetricTargets(const FrameShape& shape, const DualRadius& dual, bool blur, Program* program);
 
   VisibilityTarget first() const { return target(!dual_ && !blur_, 0); }
   // Combines its own result with the first's.
@@ -50,10 +50,9 @@ void add_blur(const FrameShape& shape, const Geometry& g, int region, float edge
 template <class Settings, class Sample>
 void add_volumetric(const Settings& s, const FrameShape& shape, const Geometry& g, Sample sample,
                     Program* program) {
-  const bool dual = s.dual.second_radius.has_value();
-  const VolumetricTargets targets(shape, dual, s.dual.combine, s.blur, program);
+  const VolumetricTargets targets(shape, s.dual, s.blur, program);
   sample(s, targets.first());
-  if (dual) {
+  if (s.dual.second_radius) {
     Settings other = s;
     other.falloff.radius = *s.dual.second_radius;
     sample(other, targets.second());

@@ -20,8 +20,6 @@ layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
 // Per pixel of the tile of reflections x, y, z; per sample of the pattern x, y, z, weight.
 layout(binding = 4) readonly buffer Tables { float tables[]; };
 
-const float kDepthGrain = 1e-6;
-
 // Whether a surface at this depth offset lies in front of the sample.
 bool in_front(float at, float slope, float level) { return (at * slope - level) * slope < 0.0; }
 

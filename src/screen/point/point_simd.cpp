@@ -15,10 +15,6 @@ namespace HWY_NAMESPACE {
 using namespace obscura::HWY_NAMESPACE::taps;
 using obscura::HWY_NAMESPACE::GatherLanes;
 
-// A sample this share of the depth in front of its surface is not behind it: depths in floats are
-// that coarse.
-constexpr float kDepthGrain = 1e-6f;
-
 HWY_INLINE V Dot(const Vec3& a, const Vec3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
@@ -45,7 +41,7 @@ HWY_INLINE void FindTaps(const PointFrame& f, Receivers r, Vec3 n, Vec3 noise, i
                          Block<kPlane, kVaries, kThickness>* block) {
   const D d;
   const V zero = hn::Zero(d), round = hn::Set(d, kRound), radius = hn::Set(d, f.view.radius);
-  const V grain = hn::Mul(hn::Set(d, kDepthGrain), r.z);
+  const V grain = hn::Mul(hn::Set(d, obscura::HWY_NAMESPACE::leaf::kDepthGrain), r.z);
   if constexpr (kPlane) r.SetNormal(&n);
   for (int i = 0; i < f.samples; ++i) {
     Vec3 s = {hn::Set(d, f.x[i]), hn::Set(d, f.y[i]), hn::Set(d, f.z[i])};

@@ -12,23 +12,12 @@ namespace obscura {
 namespace {
 
 constexpr int kRowsPerTask = 8;
-// Blocks of so many pixels see all turns of the pattern (core/reflection_noise.h).
-constexpr int kInterleave = 4;
 
 class ScreenPointMethod final : public Method {
  public:
-  ScreenPointMethod(const PointSettings& settings, int width, int height) : settings_(settings) {
-    frame_.view.radius = view::tap_radius(settings.falloff.radius);
-    frame_.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-    const auto pattern = disk_pattern(settings.samples, false);
-    double sum = 0;
-    for (const DiskSample& s : pattern) sum += s.weight_constant;
-    frame_.samples = static_cast<int>(pattern.size());
-    for (int i = 0; i < frame_.samples; ++i) {
-      frame_.x[i] = pattern[i].x;
-      frame_.y[i] = pattern[i].y;
-      frame_.weight[i] = static_cast<float>(pattern[i].weight_constant / sum);
-    }
+  ScreenPointMethod(const PointSettings& settings, const ScreenPatternFrame& frame, int width,
+                    int height)
+      : settings_(settings), frame_(frame) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
     sums_.resize(width, height);
   }
@@ -55,7 +44,7 @@ class ScreenPointMethod final : public Method {
       sums_.resolve(g,
                     {.sums = directional::Sums::kUniform,
                      .directions = directions,
-                     .interleave = settings_.blur ? kInterleave : 1,
+                     .interleave = settings_.blur ? kScreenPatternInterleave : 1,
                      .edge = 0.5f * frame_.view.radius,
                      .paper_cone = false},
                     o, context.executor);
@@ -92,8 +81,7 @@ class ScreenPointMethod final : public Method {
 
 }  // namespace
 
-Status make_screen_point(const PointSettings& settings, int width, int height,
-                         std::unique_ptr<Method>* method) {
+Status make_screen_pattern_frame(const PointSettings& settings, ScreenPatternFrame* frame) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
   if (settings.samples > kMaxDiskSamples) {
@@ -104,7 +92,26 @@ Status make_screen_point(const PointSettings& settings, int width, int height,
     return invalid_argument(
         "occluder is thickness; the screen pattern looks at surface points only and takes solid");
   }
-  *method = std::make_unique<ScreenPointMethod>(settings, width, height);
+  ScreenPatternFrame& f = *frame;
+  f.view.radius = view::tap_radius(settings.falloff.radius);
+  f.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  const auto pattern = disk_pattern(settings.samples, false);
+  double sum = 0;
+  for (const DiskSample& s : pattern) sum += s.weight_constant;
+  f.samples = static_cast<int>(pattern.size());
+  for (int i = 0; i < f.samples; ++i) {
+    f.x[i] = pattern[i].x;
+    f.y[i] = pattern[i].y;
+    f.weight[i] = static_cast<float>(pattern[i].weight_constant / sum);
+  }
+  return {};
+}
+
+Status make_screen_point(const PointSettings& settings, int width, int height,
+                         std::unique_ptr<Method>* method) {
+  ScreenPatternFrame frame;
+  if (Status s = make_screen_pattern_frame(settings, &frame); !s.ok()) return s;
+  *method = std::make_unique<ScreenPointMethod>(settings, frame, width, height);
   return {};
 }
 

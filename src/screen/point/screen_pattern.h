@@ -8,6 +8,11 @@
 
 namespace obscura {
 
+struct ScreenPatternFrame;
+
+// Blocks of so many pixels see all turns of the pattern (core/reflection_noise.h).
+inline constexpr int kScreenPatternInterleave = 4;
+
 // Point samples on the screen (PointPattern::kScreen), with their own blur if settings.blur:
 // neighbours whose patterns differ are put together as in directional/interleaved.h. `width` x
 // `height` is the whole depth image. Taps are as in point.h.
@@ -16,6 +21,9 @@ namespace obscura {
 // that mean V w = n/2 - sum of the occluding samples' weights times the directions to their points.
 Status make_screen_point(const PointSettings& settings, int width, int height,
                          std::unique_ptr<Method>* method);
+
+// What all frames have in common: the pattern in the units that kernels want, on any device.
+Status make_screen_pattern_frame(const PointSettings& settings, ScreenPatternFrame* frame);
 
 }  // namespace obscura
 

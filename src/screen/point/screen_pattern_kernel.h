@@ -7,6 +7,10 @@
 
 namespace obscura {
 
+// A surface point no higher above the tangent plane than this, as an angle, lies on it: normals
+// from depth are no more exact.
+inline constexpr float kAngleGrain = 2e-3f;
+
 // One frame of the screen pattern as the kernel sees it.
 struct ScreenPatternFrame {
   view::TapFrame view;

@@ -16,11 +16,7 @@ namespace HWY_NAMESPACE {
 using namespace obscura::HWY_NAMESPACE::taps;
 namespace om = obscura::HWY_NAMESPACE;
 
-// A surface point this share of the depth in front of the tangent plane lies on it: depths in
-// floats are that coarse.
-constexpr float kDepthGrain = 1e-6f;
-// The same as an angle: normals from depth are no more exact.
-constexpr float kAngleGrain = 2e-3f;
+using om::leaf::kDepthGrain;
 
 template <bool kPlane, bool kDirections>
 void Pixels(const ScreenPatternFrame& f, int row, int width,

@@ -8,6 +8,7 @@
 #include "obscura/cone.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
+#include "obscura/resolution.h"
 
 namespace obscura {
 
@@ -63,6 +64,7 @@ struct FarFieldSettings {
   bool blur = true;     // selective, 5x5; with separable 3 or jitter
   int line_step = 1;    // [1, 4] every n-th line is scanned
   ConeEstimate cone = ConeEstimate::kExact;
+  Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<FarFieldSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -88,6 +90,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.blur, Field{"blur", "", {}, "Selective 5x5 blur after separable evaluation or jitter."});
   v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Every n-th line is scanned."});
   v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
+  v(s.resolution, resolution_field());
 }
 
 }  // namespace obscura

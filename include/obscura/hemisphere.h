@@ -9,6 +9,7 @@
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
 #include "obscura/reference.h"
+#include "obscura/resolution.h"
 
 namespace obscura {
 
@@ -31,6 +32,7 @@ struct HemisphereSettings {
   // 2009). Called once per estimator, at the directions of a table; 1/samples of the hemisphere is
   // what one sample stands for, so light that is blurred by as much gives the least noise.
   std::function<std::array<float, 3>(const std::array<float, 3>&)> radiance{};
+  Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<HemisphereSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -45,6 +47,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
   v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.resolution, resolution_field());
 }
 
 }  // namespace obscura

@@ -6,6 +6,7 @@
 #include "obscura/cone.h"
 #include "obscura/falloff.h"
 #include "obscura/far_field.h"
+#include "obscura/resolution.h"
 
 namespace obscura {
 
@@ -39,6 +40,7 @@ struct HorizonSettings {
   bool blur = true;         // over m x m pixels
   ConeEstimate cone = ConeEstimate::kExact;
   std::uint32_t seed = 1;
+  Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<HorizonSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -54,6 +56,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
   v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.resolution, resolution_field());
 }
 
 }  // namespace obscura

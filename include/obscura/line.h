@@ -6,6 +6,7 @@
 #include "obscura/dual_radius.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
+#include "obscura/resolution.h"
 
 namespace obscura {
 
@@ -33,6 +34,7 @@ struct LineSettings {
   bool rotate = true;                         // random reflection of the pattern per pixel
   bool blur = true;                           // edge-aware separable blur of the result
   std::uint32_t seed = 1;                     // of the random reflections
+  Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<LineSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -45,6 +47,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
   v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.resolution, resolution_field());
 }
 
 }  // namespace obscura

@@ -2,6 +2,7 @@
 #define OBSCURA_MIPMAP_H_
 
 #include "obscura/falloff.h"
+#include "obscura/resolution.h"
 
 namespace obscura {
 
@@ -22,6 +23,7 @@ struct MipmapSettings {
   int directions = 16;                            // [4, 64] K
   float step_factor = 1.5f;                       // [1.05, 4]
   DepthPyramid pyramid = DepthPyramid::kAverage;  // nearest: the paper's for finite thickness
+  Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<MipmapSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -29,6 +31,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.directions, Field{"directions", "", closed(4, 64), "Azimuthal directions K."});
   v(s.step_factor, Field{"step_factor", "", closed(1.05, 4), "Growth of the step per sample."});
   v(s.pyramid, Field{"pyramid", "", {}, "What a texel of a lower resolution holds."});
+  v(s.resolution, resolution_field());
 }
 
 }  // namespace obscura

@@ -8,6 +8,7 @@
 #include "screen/blurred.h"
 #include "screen/dual.h"
 #include "screen/far_field/far_field.h"
+#include "screen/half_resolution.h"
 #include "screen/hemisphere/hemisphere.h"
 #include "screen/horizon/horizon.h"
 #include "screen/line/line.h"
@@ -75,6 +76,18 @@ Status make_method(const HorizonSettings& s, int w, int h, std::unique_ptr<Metho
 
 Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {
   return make_reference(s, m);
+}
+
+template <class Settings>
+Status make_any(const Settings& s, int w, int h, std::unique_ptr<Method>* m) {
+  if constexpr (requires { s.resolution; }) {
+    if (s.resolution == Resolution::kHalf) {
+      if (Status status = make_method(s, half_of(w), half_of(h), m); !status.ok()) return status;
+      *m = make_half_resolution(std::move(*m));
+      return {};
+    }
+  }
+  return make_method(s, w, h, m);
 }
 
 template <class T>
@@ -207,7 +220,7 @@ Status Estimator::create(const MethodSettings& settings, int width, int height, 
   try {
     std::unique_ptr<Method> method;
     Status status =
-        std::visit([&](const auto& s) { return make_method(s, width, height, &method); }, settings);
+        std::visit([&](const auto& s) { return make_any(s, width, height, &method); }, settings);
     if (!status.ok()) return status;
     estimator->impl_ = std::make_unique<EstimatorImpl>(std::move(method), width, height, threads);
     return {};

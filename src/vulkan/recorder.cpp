@@ -53,6 +53,11 @@ Status check(const Device& device, const FrameShape& s) {
 
 template <class Settings>
 Status program_of(const Settings& settings, const FrameShape& shape, Program* program) {
+  if constexpr (requires { settings.resolution; }) {
+    if (settings.resolution == Resolution::kHalf) {
+      return unsupported("on Vulkan the resolution is full");
+    }
+  }
   if constexpr (requires { make_program(settings, shape, program); }) {
     return make_program(settings, shape, program);
   } else {

@@ -6,8 +6,7 @@
 namespace obscura {
 namespace {
 
-constexpr const char* kHall =
-    "light scene:hall --size 32x18 --method geometric --rays 16 --no-cache ";
+constexpr const char* kHall = "light scene:hall --size 32x18 --method geometric --rays 16 ";
 
 class LightCommandTest : public CommandTest {};
 
@@ -54,7 +53,7 @@ TEST_F(LightCommandTest, ComparatorsLightThePicture) {
   for (const char* how : {"samples --method hemisphere --samples 16", "samples --method ray-traced",
                           "importance --method hemisphere --samples 64"}) {
     const CommandResult r =
-        run(std::string("light scene:plane --size 32x18 --radius 1 --no-cache --environment "
+        run(std::string("light scene:plane --size 32x18 --radius 1 --environment "
                         "sky:model=uniform -o lit.pfm --comparator ") +
             how);
     ASSERT_EQ(r.code, 0) << r.err;
@@ -74,7 +73,7 @@ TEST_F(LightCommandTest, ComparatorsLightThePicture) {
 }
 
 TEST_F(LightCommandTest, SupersamplingAveragesPixels) {
-  const std::string command = "light scene:hall --size 32x18 --no-cache --environment sky -o ";
+  const std::string command = "light scene:hall --size 32x18 --environment sky -o ";
   ASSERT_EQ(run(command + "full.pfm").code, 0);
   ASSERT_EQ(run(command + "half.pfm --supersample 2").code, 0);
   support::Image full, half;
@@ -96,10 +95,13 @@ TEST_F(LightCommandTest, SupersamplingAveragesPixels) {
 
 TEST_F(LightCommandTest, KeepsTheConvolution) {
   const std::string command = "light scene:hall --size 16x9 --environment sky -o lit.png";
-  EXPECT_EQ(run(command, "export XDG_CACHE_HOME=$PWD/cache;").code, 0);
-  const CommandResult again = run(command, "export XDG_CACHE_HOME=$PWD/cache;");
+  EXPECT_EQ(run(command).code, 0);
+  const CommandResult again = run(command);
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("(cached)"), std::string::npos) << again.out;
+  const CommandResult anew = run(command + " --no-cache");
+  EXPECT_EQ(anew.code, 0) << anew.err;
+  EXPECT_EQ(anew.out.find("(cached)"), std::string::npos) << anew.out;
 }
 
 TEST_F(LightCommandTest, BadUsageAndBadInputAreTold) {

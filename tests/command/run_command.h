@@ -35,10 +35,12 @@ class CommandTest : public testing::Test {
   }
   ~CommandTest() override { std::filesystem::remove_all(folder_); }
 
-  // `before` is shell text that runs first, such as "ulimit -f 8;".
+  // `before` is shell text that runs first, such as "ulimit -f 8;". What commands keep between runs
+  // stays in the folder.
   CommandResult run(const std::string& arguments, const std::string& before = "") {
-    const std::string line = "cd '" + folder_ + "'; " + before + " '" OBSCURA_COMMAND "' " +
-                             arguments + " >stdout.txt 2>stderr.txt </dev/null";
+    const std::string line = "cd '" + folder_ + "'; export XDG_CACHE_HOME=$PWD/cache; " + before +
+                             " '" OBSCURA_COMMAND "' " + arguments +
+                             " >stdout.txt 2>stderr.txt </dev/null";
     const int status = std::system(line.c_str());
     CommandResult result;
     if (WIFEXITED(status)) result.code = WEXITSTATUS(status);

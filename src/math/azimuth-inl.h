@@ -43,7 +43,7 @@ struct Azimuth {
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V AlongRay(D d, const Ray<V>& r, ImageStep e) {
   namespace hn = hwy::HWY_NAMESPACE;
-  return hn::Mul(hn::MulAdd(hn::Set(d, e.u), r.a, hn::Mul(hn::Set(d, e.v), r.b)), r.inverse_length);
+  return leaf::part_along_ray(r.a, r.b, r.inverse_length, hn::Set(d, e.u), hn::Set(d, e.v));
 }
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE Azimuth<V> MakeAzimuth(D d, const Ray<V>& r, ImageStep step, V nu, V nv, V nw) {
@@ -51,8 +51,7 @@ HWY_INLINE Azimuth<V> MakeAzimuth(D d, const Ray<V>& r, ImageStep step, V nu, V 
   Azimuth<V> s;
   s.along_ray = AlongRay(d, r, step);
   const V square = hn::Set(d, step.u * step.u + step.v * step.v);
-  s.lateral =
-      hn::Sqrt(hn::Max(hn::NegMulAdd(s.along_ray, s.along_ray, square), hn::Set(d, 1e-30f)));
+  s.lateral = leaf::part_across_ray(s.along_ray, square);
   s.nz = hn::Neg(hn::Mul(hn::MulAdd(nu, r.a, hn::MulAdd(nv, r.b, nw)), r.inverse_length));
   const V along = hn::MulAdd(nu, hn::Set(d, step.u), hn::Mul(nv, hn::Set(d, step.v)));
   s.nt = hn::Div(hn::MulAdd(s.nz, s.along_ray, along), s.lateral);
@@ -64,12 +63,9 @@ template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V AzimuthBetween(D d, const Ray<V>& r, ImageStep low, ImageStep high) {
   namespace hn = hwy::HWY_NAMESPACE;
   const float area = std::abs(low.u * high.v - low.v * high.u);
-  const float flat = low.u * high.u + low.v * high.v;
-  const V cross = hn::Mul(r.inverse_length, hn::Set(d, area));
-  const V dot = hn::NegMulAdd(AlongRay(d, r, low), AlongRay(d, r, high), hn::Set(d, flat));
-  const V length =
-      hn::Sqrt(hn::Max(hn::MulAdd(dot, dot, hn::Mul(cross, cross)), hn::Set(d, 1e-30f)));
-  return leaf::fast_acos(hn::Div(dot, length));
+  const float product = low.u * high.u + low.v * high.v;
+  return leaf::angle_around_ray(r.inverse_length, AlongRay(d, r, low), AlongRay(d, r, high),
+                                hn::Set(d, area), hn::Set(d, product));
 }
 
 }  // namespace HWY_NAMESPACE

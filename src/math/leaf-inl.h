@@ -40,6 +40,8 @@ HWY_INLINE Real leaf_copysign(Real magnitude, Real z) { return hn::CopySign(magn
 
 #define LEAF(type) HWY_INLINE type
 #include "math/slab_leaf.h"
+// After slab_leaf.h.
+#include "math/azimuth_leaf.h"
 #include "math/sphere_line_leaf.h"
 #undef LEAF
 

@@ -93,35 +93,55 @@ float mean_rho(Slice s, Horizon h, vec2 p, float sine, float cosine, float angle
   return total.y / total.x;
 }
 
-// Adds the next point outwards, one that is there, over the slice's whole width.
-void add_point(Slice s, vec2 p, bool valid, inout Horizon h) {
+// A direction clipped to the hemisphere.
+struct Edge {
+  float sine, cosine, angle, integral;
+};
+Edge clip_to_hemisphere(Slice s, float sine, float cosine, float angle) {
+  if ((s.nz < 0.0) != (cosine <= s.edge_cosine)) {
+    return Edge(s.edge_sine, s.edge_cosine, s.edge_angle, s.edge_integral);
+  }
+  return Edge(sine, cosine, angle, cosine_integral(s.nz, s.nt, sine, cosine, angle));
+}
+
+// Adds the next point outwards, one that stands in a share of the slice's width.
+void add_part(Slice s, vec2 p, bool valid, float share, inout Horizon h) {
   const float inverse = inversesqrt(max(dot(p, p), kTiny));
   const float cosine = p.y * inverse;
   const bool visible = valid && cosine > h.cosine;
-  if (visible && cosine > h.cosine_c + kLeastRise) {
-    const float c = min(cosine, 1.0);
-    const bool clipped = (s.nz < 0.0) != (c <= s.edge_cosine);
-    const float angle = fast_acos(c);
-    const float sine_c = clipped ? s.edge_sine : p.x * inverse;
-    const float cosine_c = clipped ? s.edge_cosine : c;
-    const float angle_c = clipped ? s.edge_angle : angle;
-    const float integral =
-        clipped ? s.edge_integral : cosine_integral(s.nz, s.nt, p.x * inverse, c, angle);
-    const vec2 directions = direction_integral(s, sine_c, cosine_c, angle_c);
-    const float weight = h.integral - integral;
+  float horizon = cosine;
+  if (visible && (share < 1.0 || cosine > h.cosine_c + kLeastRise)) {
+    const float c = min(cosine, 1.0), angle = fast_acos(c);
+    Edge edge = clip_to_hemisphere(s, p.x * inverse, c, angle);
+    const float weight = h.integral - edge.integral;
     if (weight > 0.0) {
-      const float mean = mean_rho(s, h, p, sine_c, cosine_c, angle_c);
+      const float mean = share * mean_rho(s, h, p, edge.sine, edge.cosine, edge.angle);
       h.sum += weight * mean;
-      if (kSums != kSumVisibility) h.sum_directions += (h.directions - directions) * mean;
-      if (kSums == kSumUniform) h.sum_solid += (cosine_c - h.cosine_c) * mean;
+      if (kSums != kSumVisibility) {
+        h.sum_directions +=
+            (h.directions - direction_integral(s, edge.sine, edge.cosine, edge.angle)) * mean;
+      }
+      if (kSums == kSumUniform) h.sum_solid += (edge.cosine - h.cosine_c) * mean;
     }
-    h.sine_c = sine_c;
-    h.cosine_c = cosine_c;
-    h.angle_c = angle_c;
-    h.integral = integral;
-    h.directions = directions;
+    if (share < 1.0) {
+      // The horizon of the slice as a whole: the mean angle of its covered and its open part.
+      const float before = fast_acos(max(h.cosine + kHorizonSlack, -1.0));
+      const float between = mix(before, angle, share);
+      horizon = cos(between);
+      edge = clip_to_hemisphere(s, sin(between), horizon, between);
+    }
+    h.sine_c = edge.sine;
+    h.cosine_c = edge.cosine;
+    h.angle_c = edge.angle;
+    h.integral = edge.integral;
+    if (kSums != kSumVisibility) {
+      h.directions = direction_integral(s, edge.sine, edge.cosine, edge.angle);
+    }
   }
-  if (visible) h.cosine = cosine - kHorizonSlack;
+  if (visible) h.cosine = horizon - kHorizonSlack;
   h.point = p;
   h.chord = visible;
 }
+
+// The same over the slice's whole width.
+void add_point(Slice s, vec2 p, bool valid, inout Horizon h) { add_part(s, p, valid, 1.0, h); }

@@ -74,6 +74,7 @@ Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
 // In <method>_program.cpp.
 Status make_program(const AreaSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const HemisphereSettings& settings, const FrameShape& shape, Program* program);
+Status make_program(const FarFieldSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const HorizonSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const PointSettings& settings, const FrameShape& shape, Program* program);

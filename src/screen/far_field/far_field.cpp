@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/text.h"
 #include "screen/far_field/directions.h"
+#include "screen/far_field/lines.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
 #include "screen/far_field/slices.h"
@@ -32,45 +32,31 @@ namespace {
 
 constexpr int kRowsPerTask = 8;
 
-// Which intervals a segment reads for the receivers of a row (`row` counted outwards): the nearest
-// is at least one interval away; every second one climbs a level of the pyramid (section 6). `u` is
-// the first receiver's.
+// The intervals of a segment for receivers of a row whose first is at texel u.
 int list_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
                    int interval, int row, int u, bool finite, ScanBuffer* buffer,
                    IntervalRead* reads) {
-  int count = 0, level = 0;
-  int strip = (row + direction.phase + 2 * interval - 1) / interval;
+  IntervalLines found[kMaxIntervals];
+  const int count =
+      find_intervals(direction, segment, layout, buffer->pyramid(), interval, row, u, found);
   const int phases = buffer->phases();
   // Of a line: its phase and its place among that phase's lines, also left of the first line.
   auto phase_of = [&](int line) { return ((line % phases) + phases) % phases; };
   auto place_of = [&](int line) { return (line - phase_of(line)) / phases; };
-  while (strip < buffer->strips(level) && count < kMaxIntervals) {
-    const double size = static_cast<double>(interval) * (1 << level);
-    const double away = (strip + 0.5) * size - 0.5 - direction.phase - row;
-    const double start = u - layout.shift(row + away);
-    auto line_at = [&](double slope) { return (slope * away + start) / layout.step; };
-    const int middle = static_cast<int>(std::floor(line_at(segment.middle) + 0.5));
-    int first = static_cast<int>(std::ceil(line_at(segment.low)));
-    int last = static_cast<int>(std::floor(line_at(segment.high)));
-    if (first > last) first = last = middle;
-    IntervalRead& read = reads[count++];
-    read = {.from = {},
-            .to = {},
-            .first = place_of(first),
-            .last = place_of(last + 1),
-            .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
-            .line = {},
-            .middle = place_of(middle)};
+  for (int i = 0; i < count; ++i) {
+    const auto& [level, strip, first, last, middle] = found[i];
+    reads[i] = {.from = {},
+                .to = {},
+                .first = place_of(first),
+                .last = place_of(last + 1),
+                .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
+                .line = {},
+                .middle = place_of(middle)};
     if (finite) {
-      read.line = buffer->raw(level, strip, phase_of(middle));
+      reads[i].line = buffer->raw(level, strip, phase_of(middle));
     } else {
-      read.from = buffer->sums(level, strip, phase_of(first));
-      read.to = buffer->sums(level, strip, phase_of(last + 1));
-    }
-    ++strip;
-    if (strip % 2 == 0 && level + 1 < buffer->levels()) {
-      strip /= 2;
-      ++level;
+      reads[i].from = buffer->sums(level, strip, phase_of(first));
+      reads[i].to = buffer->sums(level, strip, phase_of(last + 1));
     }
   }
   return count;
@@ -95,34 +81,7 @@ void list_taps(const Plane& p, const Direction& direction, const Segment& segmen
                      .along = tap.along,
                      .centred = false});
   }
-  // The receiver's own row, 0, has none.
-  for (std::size_t i = 0; i < taps->size(); ++i) {
-    const float row = std::round((*taps)[i].along);
-    auto off = [&](std::size_t k) { return std::abs((*taps)[k].along - row); };
-    (*taps)[i].centred = row > 0 && (i == 0 || off(i) < off(i - 1)) &&
-                         (i + 1 == taps->size() || off(i) <= off(i + 1));
-  }
-}
-
-// How many of them lie within `rows` rows outwards of a row (counted outwards) and in the image.
-int count_taps(const Segment& segment, int row, int rows, int height) {
-  int count = 0;
-  for (const NearTap& tap : segment.taps) {
-    if (tap.along >= rows || row + tap.dv + (tap.wv > 0 ? 1 : 0) >= height) break;
-    ++count;
-  }
-  return count;
-}
-
-// The same for a slice and its mirror image.
-float dither(const Direction& direction, const Segment& segment) {
-  const double x = 5.3 * std::abs(segment.middle) + 0.37 * direction.transposed;
-  return static_cast<float>(x - std::floor(x) - 0.5);
-}
-
-// Pixels that do alike lie this far apart along a row.
-int phases_of(const FarFieldSettings& s) {
-  return std::lcm(s.separable == 3 || s.jitter ? 3 : 1, s.line_step);
+  for (std::size_t i = 0; i < taps->size(); ++i) (*taps)[i].centred = is_centred(segment, i);
 }
 
 class FarFieldMethod final : public Method {
@@ -201,10 +160,6 @@ class FarFieldMethod final : public Method {
     }
   }
 
-  // Cells are the image's, whichever way the plane lies.
-  static int cell_of(const Direction& direction, int row, int phase) {
-    return direction.transposed ? 3 * (phase % 3) + row % 3 : 3 * (row % 3) + phase % 3;
-  }
   const std::vector<TapRead>& taps_of(int row, int phase, std::size_t segment) const {
     return taps_[((settings_.jitter ? row % 3 : 0) * phases_ + phase) * settings_.segments +
                  segment];
@@ -223,7 +178,7 @@ class FarFieldMethod final : public Method {
   }
 
   void evaluate(const Direction& direction, Executor& executor, Plane* plane) {
-    const LineLayout layout(*plane, direction, settings_.line_step);
+    const LineLayout layout(plane->width, plane->height, direction, settings_.line_step);
     const int rows = plane->visible_height, phases = std::min(phases_, plane->visible_width);
     prepare_taps(direction, *plane);
     executor.parallel_for((rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int) {
@@ -241,8 +196,7 @@ class FarFieldMethod final : public Method {
     Plane& p = *plane;
     const int v = y + p.top, u = phase + p.left, row = direction.sign > 0 ? v : p.height - 1 - v;
     const int interval = settings_.interval;
-    const int first_strip = (row + direction.phase + 2 * interval - 1) / interval;
-    const int near_rows = std::min(first_strip * interval - direction.phase, p.height) - row;
+    const int near = near_rows(direction, interval, row, p.height);
     const int cell = cell_of(direction, y, phase);
     const bool far = !separable() || direction.group == cell;
     const std::vector<Segment>& segments = direction.segments_of(cell);
@@ -263,7 +217,7 @@ class FarFieldMethod final : public Method {
                    .texels = p.lattice.row(v),
                    .backs = p.finite ? p.back.row(v) : nullptr,
                    .taps = taps_of(y, phase, i).data(),
-                   .tap_count = count_taps(segment, row, near_rows, p.height),
+                   .tap_count = count_taps(segment, row, near, p.height),
                    .intervals = intervals,
                    .interval_count = 0,
                    .phase_lines = buffer_.phase_lines(),
@@ -348,7 +302,8 @@ FarFieldSettings with_preset(FarFieldSettings s) {
 
 }  // namespace
 
-Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* method) {
+Status resolve_far_field(const FarFieldSettings& given, FarFieldSettings* resolved,
+                         math::Rho* rho) {
   const FarFieldSettings settings = with_preset(given);
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(settings.falloff); !s.ok()) return s;
@@ -372,8 +327,15 @@ Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* me
   if (settings.occluder.kind == OccluderKind::kLayers) {
     return unsupported("the far field takes the occluders solid, thickness and back-depth");
   }
+  if (Status s = math::make_rho(settings.falloff, rho); !s.ok()) return s;
+  *resolved = settings;
+  return {};
+}
+
+Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* method) {
+  FarFieldSettings settings;
   math::Rho rho;
-  if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;
+  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
   *method = std::make_unique<far_field::FarFieldMethod>(settings, std::move(rho));
   return {};
 }

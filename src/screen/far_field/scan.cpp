@@ -16,28 +16,14 @@ int round_up(int n) { return (n + kVector - 1) / kVector * kVector; }
 
 }  // namespace
 
-LineLayout::LineLayout(const Plane& plane, const Direction& direction, int line_step)
-    : slope(direction.slope), step(line_step) {
-  // Anchored at the middle row, so that mirrored images have mirrored lines.
-  const double reach = std::abs(slope) * (plane.height - 1);
-  first = -0.5 * slope * (plane.height - 1) - std::ceil(0.5 * reach) - 1;
-  const int width = plane.width + 2 * static_cast<int>(std::ceil(0.5 * reach)) + 3;
-  lines = (width + step - 1) / step;
-}
-
 void ScanBuffer::resize(const Plane& plane, const Direction& direction, int interval,
                         int line_step) {
-  const LineLayout layout(plane, direction, line_step);
+  const LineLayout layout(plane.width, plane.height, direction, line_step);
   phases_.count = plane.lattice.phases() / line_step;
   phase_lines_ = (layout.lines + phases_.count - 1) / phases_.count;
   phases_.stride = round_up(phase_lines_ + 1) + 3 * PrefixSums::kPadding;
-  level_start_.assign(1, 0);
-  int strips = (plane.height + direction.phase + interval - 1) / interval;
-  for (;; strips = (strips + 1) / 2) {
-    level_start_.push_back(level_start_.back() + strips);
-    if (strips <= 2) break;
-  }
-  const int width = static_cast<int>(phases_.stride) * phases_.count, rows = level_start_.back();
+  pyramid_ = StripLevels(plane.height, direction.phase, interval);
+  const int width = static_cast<int>(phases_.stride) * phases_.count, rows = pyramid_.all();
   nearest_.resize(width, rows);
   slanted_.resize(width, rows);
   if (plane.finite) {
@@ -50,12 +36,12 @@ void ScanBuffer::resize(const Plane& plane, const Direction& direction, int inte
 }
 
 PrefixSums ScanBuffer::sums(int level, int strip, int phase) {
-  const int i = index(level, strip);
+  const int i = pyramid_.index(level, strip);
   const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
   return {depth_.row(i) + at, outward_.row(i) + at, count_.row(i) + at};
 }
 RawStrip ScanBuffer::raw(int level, int strip, int phase) {
-  const int i = index(level, strip);
+  const int i = pyramid_.index(level, strip);
   const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
   return {nearest_.row(i) + at, slanted_.row(i) + at,
           deepest_.empty() ? nullptr : deepest_.row(i) + at};
@@ -131,7 +117,7 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
 void scan(const Plane& plane, const Direction& direction, const ScanSettings& settings,
           Executor& executor, ScanBuffer* buffer) {
   buffer->resize(plane, direction, settings.interval, settings.line_step);
-  const LineLayout layout(plane, direction, settings.line_step);
+  const LineLayout layout(plane.width, plane.height, direction, settings.line_step);
   const float slack = join_slack(plane);
   executor.parallel_for(buffer->strips(0), [&](int strip, int) {
     for (int phase = 0; phase < buffer->phases(); ++phase) {
@@ -162,7 +148,7 @@ void scan(const Plane& plane, const Direction& direction, const ScanSettings& se
 void sum(const Plane& plane, const Direction& direction, const ScanSettings& settings,
          Executor& executor, ScanBuffer* buffer) {
   if (plane.finite) return;
-  const LineLayout layout(plane, direction, settings.line_step);
+  const LineLayout layout(plane.width, plane.height, direction, settings.line_step);
   const float slope = settings.receiver_slope < 0 ? 1.0f : -1.0f;
   executor.parallel_for(buffer->all_strips(), [&](int index, int) {
     int level = 0, strip = index;

@@ -1,10 +1,8 @@
 #ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_SCAN_H_
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_SCAN_H_
 
-#include <vector>
-
 #include "obscura/executor.h"
-#include "screen/far_field/directions.h"
+#include "screen/far_field/lines.h"
 #include "screen/far_field/plane.h"
 
 namespace obscura::far_field {
@@ -28,17 +26,7 @@ struct RawStrip {
   float* deepest;  // finite occluders: depth at which the matter ends
 };
 
-// Scanned line j crosses row r (counted outwards) at u = j * step + shift(r).
-struct LineLayout {
-  LineLayout(const Plane& plane, const Direction& direction, int step);
-  double shift(double row) const { return first + slope * row; }
-
-  double slope, first;
-  int step, lines;
-};
-
-// The intermediate data of one direction: a pyramid of strips, level l of interval * 2^l rows,
-// counted from the edge at which scanned lines begin.
+// The intermediate data of one direction: a pyramid of strips.
 class ScanBuffer {
  public:
   // Finite occluders read single lines and need no sums, but where the matter ends.
@@ -46,9 +34,10 @@ class ScanBuffer {
 
   int phases() const { return phases_.count; }      // of the lines
   int phase_lines() const { return phase_lines_; }  // lines per phase, rounded up
-  int levels() const { return static_cast<int>(level_start_.size()) - 1; }
-  int strips(int level) const { return level_start_[level + 1] - level_start_[level]; }
-  int all_strips() const { return level_start_.back(); }  // of all levels
+  const StripLevels& pyramid() const { return pyramid_; }
+  int levels() const { return pyramid_.levels(); }
+  int strips(int level) const { return pyramid_.strips(level); }
+  int all_strips() const { return pyramid_.all(); }
   PrefixSums sums(int level, int strip, int phase);
   RawStrip raw(int level, int strip, int phase);
   // From one phase to the next.
@@ -56,11 +45,9 @@ class ScanBuffer {
   std::size_t bytes() const;
 
  private:
-  int index(int level, int strip) const { return level_start_[level] + strip; }
-
   int phase_lines_ = 0;
   Phases phases_;
-  std::vector<int> level_start_;
+  StripLevels pyramid_;
   AlignedImage<double> depth_, outward_;
   AlignedImage<float> count_, nearest_, slanted_, deepest_;
 };

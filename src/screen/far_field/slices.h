@@ -33,8 +33,6 @@ struct IntervalRead {
   int middle;
 };
 
-inline constexpr int kMaxIntervals = 64;
-
 // One segment of one direction for the receivers of one phase of a row.
 struct SliceRow {
   const Plane* plane;

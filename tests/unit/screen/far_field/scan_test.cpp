@@ -124,7 +124,7 @@ void scan_all(const Occluder& occluder, const Check& check) {
       const ScanSettings scan_settings{c.interval, c.receiver_slope, c.line_step};
       scan(plane, d, scan_settings, *executor, &buffer);
       sum(plane, d, scan_settings, *executor, &buffer);
-      check(g, plane, d, LineLayout(plane, d, c.line_step), c, &buffer);
+      check(g, plane, d, LineLayout(plane.width, plane.height, d, c.line_step), c, &buffer);
     }
   }
 }

@@ -1,0 +1,434 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "math/slice_sums.h"
+#include "screen/far_field/far_field.h"
+#include "screen/far_field/lines.h"
+#include "shaders/far_field_collect.h"
+#include "shaders/far_field_evaluate.h"
+#include "shaders/far_field_fill.h"
+#include "shaders/far_field_range.h"
+#include "shaders/far_field_scan.h"
+#include "shaders/far_field_sum.h"
+#include "vulkan/program.h"
+
+namespace obscura::vulkan {
+namespace {
+
+using far_field::Direction;
+using far_field::IntervalLines;
+using far_field::LineLayout;
+using far_field::Segment;
+using far_field::StripLevels;
+
+constexpr int kTile = 32;         // of far_field_fill.comp and far_field_collect.comp
+constexpr int kLeastRestart = 5;  // sums restart every 32 lines or more
+constexpr int kSharedLevels = 4;  // of the pyramid, that the scan makes in shared memory
+// Scanned lines of one batch of directions; beyond this a batch has one direction.
+constexpr VkDeviceSize kBatchBytes = VkDeviceSize{32} << 20;
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+std::uint32_t bits(int value) { return static_cast<std::uint32_t>(value); }
+
+// Tables of four words, as shaders read them.
+class Quads {
+ public:
+  int size() const { return static_cast<int>(words_.size() / 4); }
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    for (std::uint32_t word : {a, b, c, d}) words_.push_back(std::bit_cast<float>(word));
+  }
+  void set(int quad, int word, int value) {
+    words_[4 * quad + word] = std::bit_cast<float>(bits(value));
+  }
+  int get(int quad, int word) const { return std::bit_cast<int>(words_[4 * quad + word]); }
+  int add_floats(std::span<const float> values) {
+    const int start = size();
+    words_.insert(words_.end(), values.begin(), values.end());
+    words_.resize((words_.size() + 3) / 4 * 4, 0.0f);
+    return start;
+  }
+  std::span<const float> words() const { return words_; }
+
+ private:
+  std::vector<float> words_;
+};
+
+// The depth image in one orientation.
+struct PlaneShape {
+  PlaneShape(const FrameShape& s, bool turned)
+      : transposed(turned),
+        width(turned ? s.height : s.width),
+        height(turned ? s.width : s.height),
+        left(turned ? s.guard_band.top : s.guard_band.left),
+        top(turned ? s.guard_band.left : s.guard_band.top),
+        visible_width(turned ? vulkan::visible_height(s) : vulkan::visible_width(s)),
+        visible_height(turned ? vulkan::visible_width(s) : vulkan::visible_height(s)) {}
+
+  bool transposed;
+  int width, height, left, top, visible_width, visible_height;
+  int lattice = -1, receivers = -1, sums = -1;  // regions
+  int stride = 0;                               // of the lattice
+};
+
+// Directions of one orientation that are scanned, summed and evaluated together.
+struct Batch {
+  const PlaneShape* plane;
+  std::vector<const Direction*> directions{};
+  int table = 0;       // of directions
+  int rows_table = 0;  // of strips to sum
+  int raw_rows = 0, sum_rows = 0, lines = 0, strips = 0;
+};
+
+class FarFieldProgram {
+ public:
+  FarFieldProgram(const FarFieldSettings& settings, const math::Rho& rho, const FrameShape& shape,
+                  Program* program)
+      : settings_(settings),
+        rho_(rho),
+        shape_(shape),
+        directions_(far_field::make_directions(settings)),
+        phases_(far_field::phases_of(settings)),
+        margin_(far_field::sideways_reach(directions_, settings.interval)),
+        sums_(shape.directions == Directions::kNone ? SliceSums::kVisibility : SliceSums::kUniform),
+        program_(program) {}
+
+  void build() {
+    const Geometry g = add_geometry(shape_, true, program_);
+    depth_ = g.depth;
+    normals_ = g.normals;
+    rho_start_ = quads_.add_floats(rho_.table);
+    tables_ = program_->table_region = program_->add_region(0);
+    add_range();
+    for (PlaneShape* plane : {&planes_[0], &planes_[1]}) add_fill(plane);
+    for (const PlaneShape& plane : planes_) make_batches(plane);
+    VkDeviceSize raw = 1, sums = 1;
+    for (const Batch& b : batches_) {
+      raw = std::max(raw, raw_bytes(b));
+      sums = std::max(sums, VkDeviceSize{4} * b.sum_rows * sum_stride(b));
+    }
+    raw_ = program_->add_region(raw);
+    line_sums_ = program_->add_region(2 * sums);
+    counts_ = program_->add_region(sums);
+    for (Batch& b : batches_) {
+      make_tables(&b);
+      add_scan(b);
+      add_sum(b);
+      add_evaluation(b);
+    }
+    add_collect();
+    program_->tables.assign(quads_.words().begin(), quads_.words().end());
+    program_->regions[tables_] = program_->tables.size() * sizeof(float);
+  }
+
+ private:
+  VkDeviceSize visible_pixels() const {
+    return static_cast<VkDeviceSize>(visible_width(shape_)) * visible_height(shape_);
+  }
+  VkDeviceSize channels() const { return sums_ == SliceSums::kVisibility ? 1 : 5; }
+  int line_phases() const { return phases_ / settings_.line_step; }
+  // Entries of a strip; phases are of equal length.
+  int sum_stride(const Batch& b) const {
+    return (b.lines + 1 + line_phases() - 1) / line_phases() * line_phases();
+  }
+  static VkDeviceSize raw_bytes(const Batch& b) { return VkDeviceSize{8} * b.raw_rows * b.lines; }
+  std::uint32_t slope() const { return bits(settings_.receiver_slope < 0 ? 1.0f : -1.0f); }
+
+  void add_range() {
+    constexpr int kGroups = 256;
+    const int partial = program_->add_region(kGroups * sizeof(float));
+    kappa_ = program_->add_region(sizeof(float));
+    for (bool last : {false, true}) {
+      program_->passes.push_back(
+          {.name = "fill",
+           .spirv = shaders::far_field_range,
+           .slots = {Slot::of(last ? partial : depth_), Slot::of(last ? kappa_ : partial)},
+           .width = last ? 1 : kGroups,
+           .group_x = 1,
+           .push = {last ? bits(kGroups) : bits(shape_.width * shape_.height), last}});
+    }
+  }
+
+  void add_fill(PlaneShape* plane) {
+    PlaneShape& p = *plane;
+    p.stride = p.width + 2 * margin_;
+    p.lattice = program_->add_region(VkDeviceSize{4} * p.stride * p.height);
+    p.receivers =
+        p.transposed ? program_->add_region(visible_pixels() * 4 * sizeof(float)) : normals_;
+    p.sums = program_->add_region(visible_pixels() * channels() * sizeof(float));
+    program_->passes.push_back(
+        {.name = "fill",
+         .spirv = shaders::far_field_fill,
+         .slots = {Slot::of(depth_), Slot::of(normals_), Slot::of(p.lattice),
+                   Slot::of(p.transposed ? p.receivers : p.lattice), Slot::of(kappa_)},
+         .width = p.stride,
+         .height = p.height,
+         .group_x = kTile,
+         .group_y = kTile,
+         .push = {p.transposed, bits(p.stride), bits(margin_)},
+         .overlaps = p.transposed});
+  }
+
+  void make_batches(const PlaneShape& plane) {
+    Batch batch{.plane = &plane};
+    auto flush = [&] {
+      if (!batch.directions.empty()) batches_.push_back(batch);
+      batch = {.plane = &plane};
+    };
+    for (const Direction& d : directions_) {
+      if (d.transposed != plane.transposed) continue;
+      const StripLevels levels(plane.height, d.phase, settings_.interval);
+      const int lines = LineLayout(plane.width, plane.height, d, settings_.line_step).lines;
+      const int raw_rows = levels.start[std::min(levels.levels(), kSharedLevels)];
+      Batch larger = batch;
+      larger.directions.push_back(&d);
+      larger.raw_rows += raw_rows;
+      larger.sum_rows += levels.all();
+      larger.lines = std::max(larger.lines, lines);
+      larger.strips = std::max(larger.strips, levels.strips(0));
+      const VkDeviceSize bytes =
+          raw_bytes(larger) + VkDeviceSize{12} * larger.sum_rows * sum_stride(larger);
+      if (!batch.directions.empty() && bytes > kBatchBytes) {
+        flush();
+        batch.directions.push_back(&d);
+        batch.raw_rows = raw_rows;
+        batch.sum_rows = levels.all();
+        batch.lines = lines;
+        batch.strips = levels.strips(0);
+      } else {
+        batch = larger;
+      }
+    }
+    flush();
+  }
+
+  // Samples of one segment, which differ between receivers in their number only.
+  int add_taps(const PlaneShape& p, const Direction& d, const Segment& segment) {
+    const int start = quads_.size();
+    for (const far_field::NearTap& tap : segment.taps) {
+      quads_.add(bits(tap.along), bits(tap.wu), bits(tap.wv),
+                 bits(tap.dv * d.sign * p.stride + tap.du));
+    }
+    return start;
+  }
+
+  // Two quads per row, phase and segment: taps and their number, intervals and theirs; slopes.
+  void add_reads(const PlaneShape& p, const Direction& d, const StripLevels& levels,
+                 int direction_quad, std::vector<int>* restarts) {
+    const LineLayout layout(p.width, p.height, d, settings_.line_step);
+    std::vector<std::vector<int>> taps;
+    for (const auto& segments : d.segments) {
+      taps.emplace_back();
+      for (const Segment& s : segments) taps.back().push_back(add_taps(p, d, s));
+    }
+    const int headers = quads_.size(), phases = phases_;
+    quads_.set(direction_quad + 1, 1, headers);
+    const int count = p.visible_height * phases * settings_.segments;
+    for (int i = 0; i < 2 * count; ++i) quads_.add(0, 0, 0, 0);
+    int header = headers;
+    for (int y = 0; y < p.visible_height; ++y) {
+      const int v = y + p.top, row = d.sign > 0 ? v : p.height - 1 - v;
+      const int near = far_field::near_rows(d, settings_.interval, row, p.height);
+      for (int phase = 0; phase < phases; ++phase) {
+        const int cell = far_field::cell_of(d, y, phase);
+        const std::vector<Segment>& segments = d.segments_of(cell);
+        for (std::size_t s = 0; s < segments.size(); ++s, header += 2) {
+          const Segment& segment = segments[s];
+          const int start = quads_.size();
+          const int found =
+              add_intervals(d, segment, layout, levels, row, phase + p.left, restarts);
+          quads_.set(header, 0, taps[d.segments.size() == 1 ? 0 : cell][s]);
+          quads_.set(header, 1, far_field::count_taps(segment, row, near, p.height) | found << 16);
+          quads_.set(header, 2, start);
+          quads_.set(header + 1, 0, std::bit_cast<int>(segment.low));
+          quads_.set(header + 1, 1, std::bit_cast<int>(segment.middle));
+          quads_.set(header + 1, 2, std::bit_cast<int>(segment.high));
+          quads_.set(header + 1, 3, std::bit_cast<int>(far_field::dither(d, segment)));
+        }
+      }
+    }
+    for (int i = headers + 2 * count; i < quads_.size(); ++i) {
+      const int strip = quads_.get(i, 0) & 0xFFFFFF, level = quads_.get(i, 0) >> 24;
+      quads_.set(i, 0, strip | (*restarts)[level] << 24);
+    }
+  }
+
+  int add_intervals(const Direction& d, const Segment& segment, const LineLayout& layout,
+                    const StripLevels& levels, int row, int u, std::vector<int>* restarts) {
+    IntervalLines found[far_field::kMaxIntervals];
+    const int count =
+        far_field::find_intervals(d, segment, layout, levels, settings_.interval, row, u, found);
+    for (int i = 0; i < count; ++i) {
+      const IntervalLines& f = found[i];
+      const int lines = f.last + 1 - f.first;
+      int& restart = (*restarts)[f.level];
+      while (lines > 1 << restart) ++restart;
+      quads_.add(bits(levels.index(f.level, f.strip) | f.level << 24), bits(f.first),
+                 bits(f.last + 1), bits(1.0f / static_cast<float>(lines)));
+    }
+    return count;
+  }
+
+  void make_tables(Batch* batch) {
+    Batch& b = *batch;
+    const PlaneShape& p = *b.plane;
+    b.table = quads_.size();
+    for (std::size_t i = 0; i < 4 * b.directions.size(); ++i) quads_.add(0, 0, 0, 0);
+    std::vector<std::array<std::uint32_t, 4>> strips;
+    int raw_base = 0, sum_base = 0, quad = b.table;
+    for (const Direction* d : b.directions) {
+      const LineLayout layout(p.width, p.height, *d, settings_.line_step);
+      const StripLevels levels(p.height, d->phase, settings_.interval);
+      for (const auto& [word, value] :
+           {std::pair{0, d->sign}, {1, d->group}, {2, d->phase}, {3, layout.lines}}) {
+        quads_.set(quad, word, value);
+      }
+      quads_.set(quad + 1, 0, quads_.size());
+      quads_.set(quad + 1, 2, sum_base);
+      add_shifts(layout, p.height);
+      for (int level = 0; level < std::min(levels.levels(), kSharedLevels); ++level) {
+        quads_.set(quad + 2, level, levels.strips(level));
+        quads_.set(quad + 3, level, raw_base + levels.start[level]);
+      }
+      std::vector<int> restarts(levels.levels(), kLeastRestart);
+      add_reads(p, *d, levels, quad, &restarts);
+      for (int level = 0; level < levels.levels(); ++level) {
+        const int shared = std::min(level, kSharedLevels - 1), merged = 1 << (level - shared);
+        for (int strip = 0; strip < levels.strips(level); ++strip) {
+          const int first = strip * merged;
+          const int count = std::min(merged, levels.strips(shared) - first);
+          strips.push_back({bits(raw_base + levels.start[shared] + first), bits(count),
+                            bits(layout.lines), bits(restarts[level])});
+        }
+      }
+      raw_base += levels.start[std::min(levels.levels(), kSharedLevels)];
+      sum_base += levels.all();
+      quad += 4;
+    }
+    b.rows_table = quads_.size();
+    for (const auto& s : strips) quads_.add(s[0], s[1], s[2], s[3]);
+  }
+
+  // Two rows per quad: where line 0 crosses them, in whole texels and what is left.
+  void add_shifts(const LineLayout& layout, int height) {
+    auto at = [&](int row) {
+      const double shift = layout.shift(row), whole = std::floor(shift);
+      return std::pair{bits(static_cast<int>(whole)), bits(static_cast<float>(shift - whole))};
+    };
+    for (int row = 0; row < height; row += 2) {
+      const auto [a, b] = at(row);
+      const auto [c, d] = at(row + 1);
+      quads_.add(a, b, c, d);
+    }
+  }
+
+  void add_scan(const Batch& b) {
+    const PlaneShape& p = *b.plane;
+    program_->passes.push_back(
+        {.name = "scan",
+         .spirv = shaders::far_field_scan,
+         .constants = {bits(settings_.interval)},
+         .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(raw_)},
+         .width = b.lines,
+         .height = b.strips,
+         .layers = static_cast<int>(b.directions.size()),
+         .group_x = 32,
+         .group_y = 8,
+         .push = {p.transposed, bits(p.stride), bits(margin_), bits(b.table), bits(b.lines),
+                  bits(settings_.line_step), slope()}});
+  }
+
+  void add_sum(const Batch& b) {
+    program_->passes.push_back(
+        {.name = "sum",
+         .spirv = shaders::far_field_sum,
+         .slots = {Slot::of(tables_), Slot::of(raw_), Slot::of(line_sums_), Slot::of(counts_)},
+         .width = b.sum_rows,
+         .group_x = 1,
+         .push = {bits(b.rows_table), bits(b.lines), bits(sum_stride(b)), bits(line_phases()),
+                  slope()}});
+  }
+
+  void add_evaluation(const Batch& b) {
+    const PlaneShape& p = *b.plane;
+    const bool filled = std::exchange(filled_[p.transposed], true);
+    program_->passes.push_back(
+        {.name = "evaluate",
+         .spirv = shaders::far_field_evaluate,
+         .constants = {static_cast<std::uint32_t>(rho_.kind),
+                       settings_.profile == SlabProfile::kAdaptiveChord,
+                       static_cast<std::uint32_t>(sums_), 0, bits(phases_),
+                       bits(settings_.line_step), bits(settings_.segments)},
+         .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(p.receivers),
+                   Slot::of(line_sums_), Slot::of(counts_), Slot::of(p.sums)},
+         .width = (p.visible_width + phases_ - 1) / phases_,
+         .height = p.visible_height,
+         .layers = phases_,
+         .group_x = 32,
+         .group_y = 4,
+         .push = {bits(rho_.radius), bits(rho_.inverse_radius), bits(rho_.entries_per_length),
+                  bits(rho_.last_entry), bits(rho_start_), p.transposed, bits(p.stride),
+                  bits(margin_), bits(b.table), bits(static_cast<int>(b.directions.size())),
+                  bits(sum_stride(b)), filled}});
+  }
+
+  void add_collect() {
+    const bool directions = sums_ != SliceSums::kVisibility;
+    program_->passes.push_back(
+        {.name = "write",
+         .spirv = shaders::far_field_collect,
+         .constants = {static_cast<std::uint32_t>(sums_), settings_.cone == ConeEstimate::kPaper,
+                       shape_.directions == Directions::kUnsigned, true},
+         .slots = {Slot::of(normals_), Slot::of(planes_[0].sums), Slot::of(planes_[1].sums),
+                   Slot::of(planes_[0].sums), Slot::image(Slot::kVisibilityImage),
+                   Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)},
+         .width = visible_width(shape_),
+         .height = visible_height(shape_),
+         .group_x = kTile,
+         .group_y = kTile});
+  }
+
+  const FarFieldSettings& settings_;
+  const math::Rho& rho_;
+  const FrameShape& shape_;
+  const std::vector<Direction> directions_;
+  const int phases_, margin_;
+  const SliceSums sums_;
+  Program* program_;
+  PlaneShape planes_[2] = {{shape_, false}, {shape_, true}};
+  std::vector<Batch> batches_;
+  Quads quads_;
+  int rho_start_ = 0;
+  bool filled_[2] = {};  // a batch has written the orientation's sums
+  int depth_ = -1, normals_ = -1, tables_ = -1, kappa_ = -1;
+  int raw_ = -1, line_sums_ = -1, counts_ = -1;
+};
+
+Status check(const FarFieldSettings& s, const FrameShape& shape) {
+  if (s.occluder.kind != OccluderKind::kSolid) {
+    return unsupported("on Vulkan the far field's occluder is solid");
+  }
+  if (s.separable != 1 || s.jitter) {
+    return unsupported("on Vulkan the far field is neither separable nor jittered");
+  }
+  if (shape.normal_use == NormalUse::kNone) {
+    return unsupported("far-field needs normals; normal_use is none");
+  }
+  return {};
+}
+
+}  // namespace
+
+Status make_program(const FarFieldSettings& given, const FrameShape& shape, Program* program) {
+  FarFieldSettings settings;
+  math::Rho rho;
+  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
+  if (Status s = check(settings, shape); !s.ok()) return s;
+  FarFieldProgram(settings, rho, shape, program).build();
+  return {};
+}
+
+}  // namespace obscura::vulkan

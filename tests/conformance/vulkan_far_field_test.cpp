@@ -1,0 +1,112 @@
+#include "tests/conformance/vulkan_fixture.h"
+
+namespace obscura {
+namespace {
+
+using VulkanFarField = VulkanTest;
+
+FarFieldSettings far_field(float radius) {
+  FarFieldSettings s;
+  s.falloff.radius = radius;
+  s.directions = 8;
+  s.segments = 1;
+  return s;
+}
+
+TEST_F(VulkanFarField, EveryPresetAgrees) {
+  for (int seed : {3, 5}) {
+    const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), seed);
+    for (FarFieldPreset preset :
+         {FarFieldPreset::kFast, FarFieldPreset::kBalanced, FarFieldPreset::kHigh}) {
+      FarFieldSettings s = far_field(1);
+      s.preset = preset;
+      expect_same(in.field(), s, "preset " + std::to_string(int(preset)));
+    }
+  }
+}
+
+TEST_F(VulkanFarField, EverySettingAgrees) {
+  const synthetic::Input in = synthetic::blocks(70, 52, Camera::perspective(1, 70, 52), 4);
+  auto same = [&](const char* what, auto change) {
+    FarFieldSettings s = far_field(1);
+    change(s);
+    expect_same(in.field(), s, what);
+  };
+  same("slab", [](auto& s) { s.profile = SlabProfile::kSlab; });
+  same("slope", [](auto& s) { s.receiver_slope = -1; });
+  same("far field alone", [](auto& s) { s.near_field = false; });
+  same("near field alone", [](auto& s) { s.interval = 64; });
+  same("short intervals", [](auto& s) { s.interval = 2; });
+  same("few directions", [](auto& s) { s.directions = 4; });
+  same("odd directions", [](auto& s) { s.directions = 13; });
+  same("segments", [](auto& s) { s.segments = 8; });
+  for (int step : {2, 3, 4}) same("line step", [&](auto& s) { s.line_step = step; });
+}
+
+TEST_F(VulkanFarField, EveryFalloffAgrees) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 6);
+  for (FalloffKind kind :
+       {FalloffKind::kConstant, FalloffKind::kQuadratic, FalloffKind::kInverseSquare,
+        FalloffKind::kTable, FalloffKind::kFunction}) {
+    FarFieldSettings s = far_field(2);
+    s.falloff.kind = kind;
+    s.falloff.table = {1, 0.8f, 0.3f, 0.1f};
+    s.falloff.function = [](float d) { return 1 / (1 + d); };
+    expect_same(in.field(), s, "falloff " + std::to_string(int(kind)));
+  }
+}
+
+TEST_F(VulkanFarField, OddSizesGuardBandsAndParallelViews) {
+  for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {33, 65}, {66, 31}}) {
+    for (bool orthographic : {false, true}) {
+      synthetic::Input in = synthetic::blocks(
+          w, h,
+          orthographic ? Camera::orthographic_height(4, w, h) : Camera::perspective(1.2f, w, h), 2);
+      for (int band : {0, 1}) {
+        if (w > 2 && h > 2) in.guard_band = GuardBand::symmetric(band, band);
+        FarFieldSettings s = far_field(1);
+        s.interval = 4;
+        expect_same(in.field(), s, std::to_string(w) + "x" + std::to_string(h));
+      }
+    }
+  }
+}
+
+TEST_F(VulkanFarField, DirectionsAgree) {
+  for (bool orthographic : {false, true}) {
+    synthetic::Input in = synthetic::blocks(
+        60, 44,
+        orthographic ? Camera::orthographic_height(4, 60, 44) : Camera::perspective(1, 60, 44), 8);
+    in.guard_band = GuardBand::symmetric(3, 2);
+    for (ConeEstimate cone : {ConeEstimate::kExact, ConeEstimate::kPaper}) {
+      FarFieldSettings s = far_field(1);
+      s.cone = cone;
+      expect_same(in.field(), s, "cone " + std::to_string(int(cone)), true);
+    }
+  }
+}
+
+// More scanned lines than one batch of directions holds, and more lines than one group sums.
+TEST_F(VulkanFarField, ManyBatchesAgree) {
+  const synthetic::Input in = synthetic::blocks(600, 400, Camera::perspective(1, 600, 400), 9);
+  FarFieldSettings s = far_field(3);
+  s.directions = 12;
+  s.interval = 2;
+  s.near_field = false;
+  expect_same(in.field(), s, "batches");
+}
+
+TEST_F(VulkanFarField, WhatCannotRunIsRefused) {
+  const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
+  std::vector<float> out(256);
+  const ImageView<float> view{out.data(), 16, 16};
+  FarFieldSettings s = far_field(1);
+  s.directions = 3;
+  EXPECT_EQ(vulkan_->run(in.field(), s, {.visibility = view}).code(), StatusCode::kInvalidArgument);
+  DepthField field = in.field();
+  field.normal_use = NormalUse::kNone;
+  EXPECT_FALSE(vulkan_->run(field, far_field(1), {.visibility = view}).ok());
+}
+
+}  // namespace
+}  // namespace obscura

@@ -29,6 +29,7 @@ Pass level_pass(const FrameShape& shape, const Geometry& g, const Pyramid& pyram
   const int height = MomentPyramid::level_size(shape.height, grid);
   const int from_width = MomentPyramid::level_size(shape.width, from_grid);
   const std::uint32_t keep = shift > MomentPyramid::shift(from_grid) ? 2 : 1;
+  const VkDeviceSize texels = static_cast<VkDeviceSize>(width) * height;
   return {.name = "moments",
           .spirv = shaders::moments,
           .constants = {level == 1},
@@ -39,7 +40,8 @@ Pass level_pass(const FrameShape& shape, const Geometry& g, const Pyramid& pyram
           .group_y = kTile,
           .push = {from, static_cast<std::uint32_t>(from_width), keep, to,
                    static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                   1u << (grid - shift)}};
+                   1u << (grid - shift)},
+          .bytes = texels * (kTexelBytes + (level == 1 ? sizeof(float) : kTexelBytes))};
 }
 
 Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, Program* program) {

@@ -33,7 +33,8 @@ struct Pass {
   int group_x = 8, group_y = 8;            // what of them one group does
   float radius = 0, thickness = 0;         // in FrameConstants
   std::vector<std::uint32_t> push{};       // PASS_CONSTANTS of view.glsl, at most kMaxPush
-  bool overlaps = false;  // depends on nothing that the pass before writes: no barrier between
+  bool overlaps = false;   // depends on nothing that the pass before writes: no barrier between
+  VkDeviceSize bytes = 0;  // that it touches, if not all of what its slots name
 };
 
 // A method as passes over regions of scratch memory, one after the other. Passes whose shader,

@@ -192,7 +192,8 @@ class Recorder::Impl {
   VkDeviceSize bytes_of(const Pass& pass) const {
     const VkDeviceSize whole = VkDeviceSize{4} * shape_.width * shape_.height;
     const VkDeviceSize visible = VkDeviceSize{4} * visible_width(shape_) * visible_height(shape_);
-    VkDeviceSize bytes = 0;
+    VkDeviceSize bytes = pass.bytes;
+    if (bytes > 0) return bytes;
     for (const Slot& slot : pass.slots) {
       if (slot.kind == Slot::kRegion)
         bytes += program_.regions[slot.region];

@@ -35,6 +35,12 @@ TEST_F(VulkanArea, AgreesForEverySetting) {
   }
 }
 
+TEST_F(VulkanArea, GivenNormals) {
+  const synthetic::Input in =
+      synthetic::plane(60, 44, Camera::perspective(1, 60, 44), 0.3, 0.4, std::sqrt(0.75), 9);
+  for (float radius : {0.5f, 3.0f}) expect_same(in.field(), area(radius, 3), "plane");
+}
+
 // Large radii in a large image see every level; images of one level have no pyramid.
 TEST_F(VulkanArea, AgreesOnEveryLevel) {
   const synthetic::Input in = synthetic::blocks(301, 257, Camera::perspective(1, 301, 257), 4);

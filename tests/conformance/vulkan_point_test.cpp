@@ -55,7 +55,10 @@ TEST_F(VulkanPoint, BallAgreesAroundIt) {
 TEST_F(VulkanPoint, APlaneIsOpen) {
   const synthetic::Input in =
       synthetic::plane(60, 44, Camera::perspective(1, 60, 44), 0.3, 0.4, std::sqrt(0.75), 9);
-  expect_same(in.field(), ball(1), "plane");
+  expect_same(in.field(), ball(1), "plane, ball");
+  PointSettings s = ball(1);
+  s.pattern = PointPattern::kScreen;
+  expect_same(in.field(), s, "plane, screen", true);
 }
 
 PointSettings screen(float radius) {

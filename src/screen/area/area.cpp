@@ -7,9 +7,9 @@
 #include "core/reflection_noise.h"
 #include "core/text.h"
 #include "core/volumetric.h"
-#include "math/sphere_line.h"
 #include "obscura/patterns.h"
 #include "screen/area/area_kernel.h"
+#include "screen/disk_lines.h"
 #include "screen/rows.h"
 
 namespace obscura {
@@ -18,25 +18,19 @@ namespace {
 void set_pattern(std::span<const DiskSample> pattern, AreaFrame* frame) {
   AreaFrame& f = *frame;
   f.samples = static_cast<int>(pattern.size());
-  double sum = 0;
-  auto weight = [&](const DiskSample& s) {
-    return f.quadratic ? s.weight_quadratic : s.weight_constant;
-  };
-  for (const DiskSample& s : pattern) sum += weight(s);
+  const double sum = sum_of_weights(pattern, f.quadratic);
   for (int i = 0; i < f.samples; ++i) {
     const DiskSample& s = pattern[i];
-    const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
-    const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
-    const double half = f.quadratic ? math::quadratic_line(extent, lateral) : extent;
+    const DiskLine line = disk_line(s, f.quadratic, 1, sum);
     f.x[i] = s.x;
     f.y[i] = s.y;
-    f.lateral[i] = std::max(static_cast<float>(lateral), 1e-6f);
-    f.extent[i] = static_cast<float>(extent);
-    f.half[i] = static_cast<float>(half);
-    f.weight[i] = static_cast<float>(weight(s) / sum / (2 * half));
+    f.lateral[i] = line.lateral;
+    f.extent[i] = line.extent;
+    f.half[i] = line.half;
+    f.weight[i] = line.weight;
     // The cell's volume over its sample's extent is about its area A; a disk of that area has a
     // deviation of sqrt(A / 4 pi), level l's kernel one of about 2^l / sqrt(3) pixels.
-    const double area = s.weight_constant / (2 * extent);
+    const double area = s.weight_constant / (2 * static_cast<double>(line.extent));
     f.level[i] = static_cast<float>(std::log2(std::sqrt(3 * area / (4 * std::numbers::pi))));
   }
 }

@@ -5,7 +5,7 @@
 
 #include "core/reflection_noise.h"
 #include "core/volumetric.h"
-#include "math/sphere_line.h"
+#include "screen/disk_lines.h"
 #include "screen/line/line_kernel.h"
 #include "screen/rows.h"
 
@@ -19,20 +19,15 @@ void set_pattern(std::span<const DiskSample> pattern, LineFrame* f) {
   const double unit = f->quadratic ? 1 : radius;
   f->samples = static_cast<int>(pattern.size());
   f->per_unit = static_cast<float>(unit / radius);
-  double sum = 0;
-  for (const DiskSample& s : pattern) sum += f->quadratic ? s.weight_quadratic : s.weight_constant;
+  const double sum = sum_of_weights(pattern, f->quadratic);
   for (int i = 0; i < f->samples; ++i) {
-    const DiskSample& s = pattern[i];
-    const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
-    const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
-    const double half = f->quadratic ? math::quadratic_line(extent, lateral) : extent * unit;
-    const double weight = f->quadratic ? s.weight_quadratic : s.weight_constant;
-    f->x[i] = static_cast<float>(scale * s.x);
-    f->y[i] = static_cast<float>(scale * s.y);
-    f->lateral[i] = std::max(static_cast<float>(lateral), 1e-6f);
-    f->extent[i] = static_cast<float>(extent * unit);
-    f->half[i] = static_cast<float>(half);
-    f->weight[i] = static_cast<float>(weight / sum / (2 * half));
+    const DiskLine line = disk_line(pattern[i], f->quadratic, unit, sum);
+    f->x[i] = static_cast<float>(scale * pattern[i].x);
+    f->y[i] = static_cast<float>(scale * pattern[i].y);
+    f->lateral[i] = line.lateral;
+    f->extent[i] = line.extent;
+    f->half[i] = line.half;
+    f->weight[i] = line.weight;
   }
 }
 

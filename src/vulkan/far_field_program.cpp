@@ -8,9 +8,12 @@
 #include "math/slice_sums.h"
 #include "screen/far_field/far_field.h"
 #include "screen/far_field/lines.h"
+#include "shaders/far_field_average.h"
+#include "shaders/far_field_blur.h"
 #include "shaders/far_field_collect.h"
 #include "shaders/far_field_evaluate.h"
 #include "shaders/far_field_fill.h"
+#include "shaders/far_field_gather.h"
 #include "shaders/far_field_range.h"
 #include "shaders/far_field_scan.h"
 #include "shaders/far_field_sum.h"
@@ -71,6 +74,7 @@ struct PlaneShape {
   bool transposed;
   int width, height, left, top, visible_width, visible_height;
   int lattice = -1, receivers = -1, sums = -1;  // regions
+  int averaged = -1, far_sums = -1;             // section 10
   int stride = 0;                               // of the lattice
 };
 
@@ -102,8 +106,9 @@ class FarFieldProgram {
     normals_ = g.normals;
     rho_start_ = quads_.add_floats(rho_.table);
     tables_ = program_->table_region = program_->add_region(0);
+    if (grouped()) add_average();
     add_range();
-    for (PlaneShape* plane : {&planes_[0], &planes_[1]}) add_fill(plane);
+    for (PlaneShape* plane : {&planes_[0], &planes_[1]}) add_plane(plane);
     for (const PlaneShape& plane : planes_) make_batches(plane);
     VkDeviceSize raw = 1, sums = 1;
     for (const Batch& b : batches_) {
@@ -125,6 +130,8 @@ class FarFieldProgram {
   }
 
  private:
+  bool separable() const { return settings_.separable == 3; }
+  bool grouped() const { return separable() || settings_.jitter; }
   VkDeviceSize visible_pixels() const {
     return static_cast<VkDeviceSize>(visible_width(shape_)) * visible_height(shape_);
   }
@@ -152,24 +159,47 @@ class FarFieldProgram {
     }
   }
 
-  void add_fill(PlaneShape* plane) {
+  void add_plane(PlaneShape* plane) {
     PlaneShape& p = *plane;
     p.stride = p.width + 2 * margin_;
     p.lattice = program_->add_region(VkDeviceSize{4} * p.stride * p.height);
     p.receivers =
         p.transposed ? program_->add_region(visible_pixels() * 4 * sizeof(float)) : normals_;
     p.sums = program_->add_region(visible_pixels() * channels() * sizeof(float));
+    add_fill(p, true, normals_, p.transposed ? p.receivers : p.lattice);
+    if (!separable()) return;
+    p.far_sums = program_->add_region(visible_pixels() * channels() * sizeof(float));
+    p.averaged = groups_;
+    if (!p.transposed) return;
+    p.averaged = program_->add_region(visible_pixels() * 4 * sizeof(float));
+    add_fill(p, false, groups_, p.averaged);
+  }
+
+  void add_fill(const PlaneShape& p, bool lattice, int receivers, int turned) {
+    program_->passes.push_back({.name = "fill",
+                                .spirv = shaders::far_field_fill,
+                                .constants = {lattice},
+                                .slots = {Slot::of(depth_), Slot::of(receivers),
+                                          Slot::of(p.lattice), Slot::of(turned), Slot::of(kappa_)},
+                                .width = lattice ? p.stride : p.visible_width,
+                                .height = lattice ? p.height : p.visible_height,
+                                .group_x = kTile,
+                                .group_y = kTile,
+                                .push = {p.transposed, bits(p.stride), bits(margin_)},
+                                .overlaps = p.transposed && lattice});
+  }
+
+  void add_average() {
+    groups_ = program_->add_region(visible_pixels() * 4 * sizeof(float));
+    accepted_ = program_->add_region(visible_pixels() * sizeof(std::uint32_t));
     program_->passes.push_back(
-        {.name = "fill",
-         .spirv = shaders::far_field_fill,
-         .slots = {Slot::of(depth_), Slot::of(normals_), Slot::of(p.lattice),
-                   Slot::of(p.transposed ? p.receivers : p.lattice), Slot::of(kappa_)},
-         .width = p.stride,
-         .height = p.height,
-         .group_x = kTile,
-         .group_y = kTile,
-         .push = {p.transposed, bits(p.stride), bits(margin_)},
-         .overlaps = p.transposed});
+        {.name = "average",
+         .spirv = shaders::far_field_average,
+         .slots = {Slot::of(depth_), Slot::of(normals_), Slot::of(groups_), Slot::of(accepted_)},
+         .width = visible_width(shape_),
+         .height = visible_height(shape_),
+         .group_x = 32,
+         .group_y = 4});
   }
 
   void make_batches(const PlaneShape& plane) {
@@ -352,43 +382,99 @@ class FarFieldProgram {
                   slope()}});
   }
 
+  // Of far_field_evaluate.comp.
+  enum Mode : std::uint32_t { kWhole, kNearAlone, kFarAlone };
+
   void add_evaluation(const Batch& b) {
     const PlaneShape& p = *b.plane;
-    const bool filled = std::exchange(filled_[p.transposed], true);
+    if (separable()) {
+      add_evaluation(b, kNearAlone, p.receivers, p.sums);
+      add_evaluation(b, kFarAlone, p.averaged, p.far_sums);
+      program_->passes.back().overlaps = true;
+    } else {
+      add_evaluation(b, kWhole, p.receivers, p.sums);
+    }
+    filled_[p.transposed] = true;
+  }
+
+  void add_evaluation(const Batch& b, Mode mode, int receivers, int sums) {
+    const PlaneShape& p = *b.plane;
+    const int phases = mode == kNearAlone ? 1 : phases_;
     program_->passes.push_back(
         {.name = "evaluate",
          .spirv = shaders::far_field_evaluate,
          .constants = {static_cast<std::uint32_t>(rho_.kind),
                        settings_.profile == SlabProfile::kAdaptiveChord,
-                       static_cast<std::uint32_t>(sums_), 0, bits(phases_),
+                       static_cast<std::uint32_t>(sums_), mode, bits(phases_),
                        bits(settings_.line_step), bits(settings_.segments)},
-         .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(p.receivers),
-                   Slot::of(line_sums_), Slot::of(counts_), Slot::of(p.sums)},
-         .width = (p.visible_width + phases_ - 1) / phases_,
+         .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(receivers),
+                   Slot::of(line_sums_), Slot::of(counts_), Slot::of(sums)},
+         .width = (p.visible_width + phases - 1) / phases,
          .height = p.visible_height,
-         .layers = phases_,
+         .layers = phases,
          .group_x = 32,
          .group_y = 4,
          .push = {bits(rho_.radius), bits(rho_.inverse_radius), bits(rho_.entries_per_length),
                   bits(rho_.last_entry), bits(rho_start_), p.transposed, bits(p.stride),
                   bits(margin_), bits(b.table), bits(static_cast<int>(b.directions.size())),
-                  bits(sum_stride(b)), filled}});
+                  bits(sum_stride(b)), filled_[p.transposed]}});
+  }
+
+  // What passes that may be the last have in common.
+  Pass last_pass(const char* name, std::span<const std::uint32_t> spirv, std::vector<Slot> slots,
+                 int tile_width, int tile_height) const {
+    slots.push_back(Slot::image(Slot::kVisibilityImage));
+    slots.push_back(Slot::image(sums_ == SliceSums::kVisibility ? Slot::kVisibilityImage
+                                                                : Slot::kBentNormalImage));
+    return {.name = name,
+            .spirv = spirv,
+            .constants = {static_cast<std::uint32_t>(sums_), settings_.cone == ConeEstimate::kPaper,
+                          shape_.directions == Directions::kUnsigned},
+            .slots = slots,
+            .width = visible_width(shape_),
+            .height = visible_height(shape_),
+            .group_x = tile_width,
+            .group_y = tile_height};
   }
 
   void add_collect() {
-    const bool directions = sums_ != SliceSums::kVisibility;
-    program_->passes.push_back(
-        {.name = "write",
-         .spirv = shaders::far_field_collect,
-         .constants = {static_cast<std::uint32_t>(sums_), settings_.cone == ConeEstimate::kPaper,
-                       shape_.directions == Directions::kUnsigned, true},
-         .slots = {Slot::of(normals_), Slot::of(planes_[0].sums), Slot::of(planes_[1].sums),
-                   Slot::of(planes_[0].sums), Slot::image(Slot::kVisibilityImage),
-                   Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)},
-         .width = visible_width(shape_),
-         .height = visible_height(shape_),
-         .group_x = kTile,
-         .group_y = kTile});
+    if (!grouped()) {
+      add_collect("write", planes_[0].sums, planes_[1].sums, -1);
+      return;
+    }
+    const bool blur = settings_.blur;
+    const int totals = blur || separable()
+                           ? program_->add_region(visible_pixels() * channels() * sizeof(float))
+                           : -1;
+    add_collect("collect", planes_[0].sums, planes_[1].sums, totals);
+    if (separable()) add_gather(totals, !blur);
+    if (blur) {
+      program_->passes.push_back(
+          last_pass("blur", shaders::far_field_blur,
+                    {Slot::of(normals_), Slot::of(groups_), Slot::of(totals)}, 32, 8));
+    }
+  }
+
+  // To the images, or to a region of totals.
+  void add_collect(const char* name, int straight, int turned, int totals) {
+    const bool to_image = totals < 0;
+    Pass pass = last_pass(name, shaders::far_field_collect,
+                          {Slot::of(normals_), Slot::of(straight), Slot::of(turned),
+                           Slot::of(to_image ? straight : totals)},
+                          kTile, kTile);
+    pass.constants.push_back(to_image);
+    program_->passes.push_back(std::move(pass));
+  }
+
+  void add_gather(int totals, bool to_image) {
+    const int far = program_->add_region(visible_pixels() * channels() * sizeof(float));
+    add_collect("collect", planes_[0].far_sums, planes_[1].far_sums, far);
+    program_->passes.back().overlaps = true;
+    Pass pass = last_pass(
+        "gather", shaders::far_field_gather,
+        {Slot::of(normals_), Slot::of(accepted_), Slot::of(far), Slot::of(totals)}, 32, 4);
+    pass.constants.push_back(to_image);
+    program_->passes.push_back(std::move(pass));
   }
 
   const FarFieldSettings& settings_;
@@ -404,15 +490,13 @@ class FarFieldProgram {
   int rho_start_ = 0;
   bool filled_[2] = {};  // a batch has written the orientation's sums
   int depth_ = -1, normals_ = -1, tables_ = -1, kappa_ = -1;
+  int groups_ = -1, accepted_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };
 
 Status check(const FarFieldSettings& s, const FrameShape& shape) {
   if (s.occluder.kind != OccluderKind::kSolid) {
     return unsupported("on Vulkan the far field's occluder is solid");
-  }
-  if (s.separable != 1 || s.jitter) {
-    return unsupported("on Vulkan the far field is neither separable nor jittered");
   }
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("far-field needs normals; normal_use is none");

@@ -86,6 +86,49 @@ TEST_F(VulkanFarField, DirectionsAgree) {
   }
 }
 
+FarFieldSettings shared_work(bool separable, bool blur, int line_step) {
+  FarFieldSettings s = far_field(1);
+  s.directions = separable ? 18 : 8;
+  s.separable = separable ? 3 : 1;
+  s.jitter = !separable;
+  s.blur = blur;
+  s.line_step = line_step;
+  return s;
+}
+
+// Sections 10 and 11.1.
+TEST_F(VulkanFarField, SharedWorkAgrees) {
+  synthetic::Input in = synthetic::blocks(58, 41, Camera::perspective(1, 58, 41), 11);
+  in.guard_band = GuardBand::symmetric(2, 1);
+  for (bool separable : {false, true}) {
+    for (int line_step : {1, 2}) {
+      expect_same(in.field(), shared_work(separable, false, line_step),
+                  (separable ? "separable, step " : "jitter, step ") + std::to_string(line_step),
+                  line_step == 1);
+    }
+  }
+}
+
+// Where a difference lies at the blur's threshold rounding decides, in two pixels at a time: of a
+// large image it is a small share.
+TEST_F(VulkanFarField, SelectiveBlurAgrees) {
+  synthetic::Input in = synthetic::blocks(125, 90, Camera::perspective(1, 125, 90), 11);
+  in.guard_band = GuardBand::symmetric(2, 1);
+  for (bool separable : {false, true}) {
+    FarFieldSettings s = shared_work(separable, true, 1);
+    s.near_step = NearStep::of(2);
+    expect_same(in.field(), s, separable ? "separable" : "jitter", true);
+  }
+}
+
+TEST_F(VulkanFarField, SharedWorkAgreesForParallelViews) {
+  const synthetic::Input in = synthetic::blocks(33, 50, Camera::orthographic_height(4, 33, 50), 12);
+  FarFieldSettings s = far_field(1);
+  s.directions = 9;
+  s.separable = 3;
+  expect_same(in.field(), s, "separable");
+}
+
 // More scanned lines than one batch of directions holds, and more lines than one group sums.
 TEST_F(VulkanFarField, ManyBatchesAgree) {
   const synthetic::Input in = synthetic::blocks(600, 400, Camera::perspective(1, 600, 400), 9);

@@ -260,6 +260,26 @@ TEST(FarField, AllBackgroundIsOpen) {
 }
 
 // A tower far before a wall-less sky: its neighbourhood has no halo.
+// Also of work that pixels share: a group has surfaces only.
+TEST(FarField, BackgroundBesideSurfacesIsOpen) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 3);
+  for (bool separable : {false, true}) {
+    FarFieldSettings s;
+    s.directions = separable ? 18 : 8;
+    s.separable = separable ? 3 : 1;
+    s.jitter = !separable;
+    std::vector<float> v(in.depth.size());
+    ASSERT_TRUE(compute(in.field(), s, {.visibility = {v.data(), 64, 48}}).ok());
+    int background = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (std::isfinite(in.depth[i])) continue;
+      EXPECT_EQ(v[i], 1) << i;
+      ++background;
+    }
+    EXPECT_GT(background, 100);
+  }
+}
+
 TEST(FarField, BackgroundDoesNotOcclude) {
   synthetic::Input in =
       synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);

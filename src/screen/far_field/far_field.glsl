@@ -1,6 +1,6 @@
 // The depth image in one of two orientations, as screen/far_field/plane.h has it. Before this:
-// view.transposed, view.lattice_stride, view.margin, buffers `quads` (tables) and `range`.
-const float kSmallest = 1e-30;
+// view.transposed, view.lattice_stride, view.margin, view.directions, buffers `quads` (tables) and `kappa`.
+#include "screen/far_field/far_field_lattice.glsl"
 
 bool is_transposed() { return view.transposed != 0; }
 // (u, v) of the plane from (x, y) of the image, and back.
@@ -18,9 +18,6 @@ vec2 plane_center() {
   const vec2 center = vec2(view.center_u, view.center_v) - 0.5;
   return is_transposed() ? center.yx : center;
 }
-
-// What is interpolated between texels: 1/depth, or for parallel rays kappa - depth.
-float depth_of(float g) { return view.orthographic != 0 ? kappa[0] - g : 1.0 / g; }
 
 // A direction in the tables: four quads.
 struct Direction {

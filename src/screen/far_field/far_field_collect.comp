@@ -16,15 +16,15 @@ layout(constant_id = 3) const bool kToImage = true;
 layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
 layout(binding = 1) readonly buffer Straight { float straight[]; };
 layout(binding = 2) readonly buffer Turned { float turned[]; };
-layout(binding = 3) writeonly buffer Totals { float totals[]; };
+layout(binding = 3) buffer Totals { float totals[]; };
 layout(binding = 4) uniform writeonly image2D visibility;
 layout(binding = 5) uniform writeonly image2D bent_normal;
 
 #include "screen/far_field/far_field_outputs.glsl"
+#define STORES_TOTALS
+#include "screen/far_field/far_field_totals.glsl"
 
 shared float tile[kTile][kTile + 1];
-
-int pixels() { return view.visible_width * view.visible_height; }
 
 void load_tile(ivec2 corner, int channel) {
   barrier();
@@ -76,9 +76,6 @@ void main() {
       write_pixel(p, normals[pixel].xyz, sums);
       continue;
     }
-    totals[pixel] = sums.obscurance;
-    if (kSums == 0) continue;
-    for (int c = 0; c < 3; ++c) totals[(1 + c) * pixels() + pixel] = sums.directions[c];
-    totals[4 * pixels() + pixel] = sums.solid;
+    store_totals(pixel, sums);
   }
 }

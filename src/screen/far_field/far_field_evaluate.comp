@@ -124,8 +124,8 @@ void main() {
   const ivec2 at = p + plane_corner();
   const int texel = at.y * view.lattice_stride + view.margin + at.x;
   const vec4 given = receivers[pixel];
-  const Receiver r =
-      receiver_at(p, kMode == kFarAlone ? given.w : lattice[texel], given.xyz);
+  const float g = kMode == kFarAlone ? lattice_value(given.w) : lattice[texel];
+  const Receiver r = receiver_at(p, g, given.xyz);
   Totals totals = Totals(0.0, 0.0, vec3(0.0));
   for (int i = 0; r.surface && i < view.direction_count; ++i) {
     const Direction d = direction_at(i);

@@ -9,19 +9,18 @@
 const int kTile = 32;
 layout(local_size_x = 32, local_size_y = 8) in;
 
+layout(constant_id = 0) const bool kLattice = true;  // else receivers alone
+
 layout(binding = 0) readonly buffer Depth { float depth[]; };
 layout(binding = 1) readonly buffer Receivers { vec4 receivers[]; };
 layout(binding = 2) writeonly buffer Lattice { float lattice[]; };
 layout(binding = 3) writeonly buffer Turned { vec4 turned_receivers[]; };
 layout(binding = 4) readonly buffer Kappa { float kappa[]; };
 
+#include "screen/far_field/far_field_lattice.glsl"
+
 shared float texels[kTile][kTile + 1];
 shared vec4 tile[kTile][kTile + 1];
-
-float lattice_value(float d) {
-  if (!(d < kInf)) return 0.0;
-  return view.orthographic != 0 ? kappa[0] - d : 1.0 / d;
-}
 
 void fill_rows(ivec2 corner) {
   for (int y = int(gl_LocalInvocationID.y); y < kTile; y += 8) {
@@ -40,7 +39,7 @@ void fill_columns(ivec2 corner) {
   for (int y = at.y; y < kTile; y += 8) {
     const ivec2 p = ivec2(corner.y + at.x, corner.x - view.margin + y);
     const bool inside = p.x < view.width && p.y >= 0 && p.y < view.height;
-    texels[at.x][y] = inside ? lattice_value(depth[p.y * view.width + p.x]) : 0.0;
+    if (kLattice) texels[at.x][y] = inside ? lattice_value(depth[p.y * view.width + p.x]) : 0.0;
     const ivec2 visible = ivec2(corner.y + at.x, corner.x + y);
     if (visible.x < view.visible_width && visible.y < view.visible_height) {
       tile[at.x][y] = receivers[visible.y * view.visible_width + visible.x];
@@ -49,7 +48,7 @@ void fill_columns(ivec2 corner) {
   barrier();
   for (int y = at.y; y < kTile; y += 8) {
     const ivec2 p = corner + ivec2(at.x, y);
-    if (p.x < view.height + 2 * view.margin && p.y < view.width) {
+    if (kLattice && p.x < view.height + 2 * view.margin && p.y < view.width) {
       lattice[p.y * view.lattice_stride + p.x] = texels[y][at.x];
     }
     if (p.x < view.visible_height && p.y < view.visible_width) {

@@ -151,8 +151,9 @@ void average_groups(const view::Geometry& g, Executor& executor, Groups* groups)
           const int nx = x + dx, ny = y + dy;
           if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
           const float other = g.depth(nx + left, ny + top);
-          // False for the background, too.
-          if (!(std::abs(other - depth) <= kDepthRatio * depth)) continue;
+          // The background is in no group: from it every surface would be within any share of its
+          // depth.
+          if (!(std::isfinite(depth) && std::abs(other - depth) <= kDepthRatio * depth)) continue;
           float m[3], dot = 0;
           for (int k = 0; k < 3; ++k) {
             m[k] = (*normal[k])(nx + left, ny + top);
@@ -207,7 +208,8 @@ void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& 
         for (int dx = std::max(-2, -x); dx <= std::min(2, width - 1 - x); ++dx) {
           const float other = totals->channel[kObscurance](x + dx, y + dy);
           const float gap = std::abs(groups.depth(x + dx, y + dy) - depth);
-          if (!(std::abs(other - own) <= kThreshold && gap <= kDepthRatio * depth)) continue;
+          const bool same = std::isfinite(depth) && gap <= kDepthRatio * depth;
+          if (!(same && std::abs(other - own) <= kThreshold)) continue;
           const float weight = kWeights[dx + 2] * kWeights[dy + 2];
           weights += weight;
           for (Channel c : channels) sum[c] += weight * totals->channel[c](x + dx, y + dy);

@@ -1,0 +1,46 @@
+// Section 10's groups (totals.cpp, average_groups): which of 3x3 neighbours see a pixel's surface, and
+// their mean depth and normal.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "vulkan/view.glsl"
+
+layout(local_size_x = 32, local_size_y = 4) in;
+
+layout(binding = 0) readonly buffer Depth { float depth[]; };
+layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
+layout(binding = 2) writeonly buffer Groups { vec4 groups[]; };     // normal, depth
+layout(binding = 3) writeonly buffer Accepted { uint accepted[]; };  // bit 3 (dy + 1) + dx + 1
+
+const float kLeastCosine = 0.5, kDepthRatio = 0.03;
+
+float depth_at(ivec2 p) { return depth[(p.y + view.top) * view.width + p.x + view.left]; }
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 size = ivec2(view.visible_width, view.visible_height);
+  if (p.x >= size.x || p.y >= size.y) return;
+  const int pixel = p.y * size.x + p.x;
+  const float own = depth_at(p);
+  const vec3 normal = normals[pixel].xyz;
+  const bool parallel = view.orthographic != 0;
+  uint mask = 0;
+  vec3 sum = vec3(0.0);
+  float place = 0.0;
+  for (int bit = 0; bit < 9; ++bit) {
+    const ivec2 n = p + ivec2(bit % 3, bit / 3) - 1;
+    if (any(lessThan(n, ivec2(0))) || any(greaterThanEqual(n, size))) continue;
+    const float other = depth_at(n);
+    // The background is in no group.
+    if (!(own < kInf && abs(other - own) <= kDepthRatio * own)) continue;
+    const vec3 m = normals[n.y * size.x + n.x].xyz;
+    if (dot(m, normal) <= kLeastCosine && bit != 4) continue;
+    mask |= 1u << bit;
+    place += parallel ? other : 1.0 / other;
+    sum += m;
+  }
+  const float mean = place / float(max(bitCount(mask), 1));
+  const float length_of = length(sum);
+  accepted[pixel] = mask;
+  groups[pixel] = vec4(length_of > 0.0 ? sum / length_of : normal,
+                       mask == 0u ? own : parallel ? mean : 1.0 / mean);
+}

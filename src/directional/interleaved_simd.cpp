@@ -8,10 +8,17 @@
 // After foreach_target.
 #include "hwy/highway.h"
 #include "math/cone-inl.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "filters/edge_leaf.h"
+#undef LEAF
+}  // namespace leaf
+
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -38,7 +45,7 @@ HWY_INLINE M IsSurface(V s) {
 template <int kCount>
 void BlurPixels(const BlurRow& row, int width) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Set(d, kInf);
+  const V zero = hn::Zero(d), inf = hn::Set(d, kInf);
   const int lanes = static_cast<int>(hn::Lanes(d));
   const bool before_inside = row.first_tap < 0;
   const bool after_inside = row.last_tap > 0;
@@ -52,8 +59,7 @@ void BlurPixels(const BlurRow& row, int width) {
     };
     const V after = difference(after_inside, row.surface_step, 1.0f);
     const V before = difference(before_inside, -row.surface_step, -1.0f);
-    V slope = hn::IfThenElse(hn::Le(hn::Abs(after), hn::Abs(before)), after, before);
-    slope = hn::IfThenElseZero(hn::Lt(hn::Abs(slope), inf), slope);
+    const V slope = leaf::surface_slope(after, before);
     V per_edge = hn::Set(d, 1 / row.edge);
     if (!row.orthographic) per_edge = hn::Div(per_edge, hn::Mul(s0, s0));
     const V nx = hn::LoadU(d, row.normal[0] + x), ny = hn::LoadU(d, row.normal[1] + x);
@@ -66,15 +72,14 @@ void BlurPixels(const BlurRow& row, int width) {
       const V s = hn::LoadU(d, surface + k * row.surface_step);
       const V gap =
           hn::Mul(hn::Sub(s, hn::MulAdd(slope, hn::Set(d, static_cast<float>(k)), s0)), per_edge);
-      const V near = hn::NegMulAdd(gap, gap, one);
       const std::ptrdiff_t at = x + k * row.normal_step;
       const V alike = hn::MulAdd(nx, hn::LoadU(d, row.normal[0] + at),
                                  hn::MulAdd(ny, hn::LoadU(d, row.normal[1] + at),
                                             hn::Mul(nz, hn::LoadU(d, row.normal[2] + at))));
-      const auto counts = hn::And(hn::And(IsSurface(s), hn::Gt(near, zero)), hn::Gt(alike, zero));
+      const auto counts = hn::And(IsSurface(s), hn::Gt(alike, zero));
       const V sharp = hn::Mul(alike, alike);
       const V w =
-          hn::IfThenElseZero(counts, hn::Mul(hn::Mul(hn::Mul(near, near), hn::Mul(sharp, sharp)),
+          hn::IfThenElseZero(counts, hn::Mul(hn::Mul(leaf::edge_weight(gap), hn::Mul(sharp, sharp)),
                                              hn::Set(d, row.weights[k < 0 ? -k : k])));
       weight_sum = hn::Add(weight_sum, w);
       for (int c = 0; c < kCount; ++c) {

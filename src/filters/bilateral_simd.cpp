@@ -7,10 +7,16 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#define LEAF(type) HWY_INLINE type
+#include "filters/edge_leaf.h"
+#undef LEAF
+}  // namespace leaf
 
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
@@ -38,7 +44,7 @@ void SurfaceRow(const float* HWY_RESTRICT depth, int width, bool orthographic,
 
 void BilateralPixels(const BilateralRow& row, int width, float* HWY_RESTRICT out) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V zero = hn::Zero(d);
   const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
   const int lanes = static_cast<int>(hn::Lanes(d));
   const bool has_before = row.first_tap<0, has_after = row.last_tap> 0;
@@ -46,7 +52,6 @@ void BilateralPixels(const BilateralRow& row, int width, float* HWY_RESTRICT out
     const float* values = row.values + x;
     const float* surface = row.surface + x;
     const V v0 = hn::LoadU(d, values), s0 = hn::LoadU(d, surface);
-    // Slope of the receiver's surface per pixel: the smaller of the two one-sided differences.
     auto difference = [&](bool inside, std::ptrdiff_t step, float sign) HWY_ATTR {
       if (!inside) return inf;
       const V s = hn::LoadU(d, surface + step);
@@ -54,8 +59,7 @@ void BilateralPixels(const BilateralRow& row, int width, float* HWY_RESTRICT out
     };
     const V after = difference(has_after, row.surface_step, 1.0f);
     const V before = difference(has_before, -row.surface_step, -1.0f);
-    V slope = hn::IfThenElse(hn::Le(hn::Abs(after), hn::Abs(before)), after, before);
-    slope = hn::IfThenElseZero(hn::Lt(hn::Abs(slope), inf), slope);
+    const V slope = leaf::surface_slope(after, before);
     // Differences of 1/depth are differences of depth times -1/depth^2.
     V per_edge = hn::Set(d, 1 / row.edge);
     if (!row.orthographic) per_edge = hn::Div(per_edge, hn::Mul(s0, s0));
@@ -67,12 +71,10 @@ void BilateralPixels(const BilateralRow& row, int width, float* HWY_RESTRICT out
       const V s = hn::LoadU(d, surface + k * row.surface_step);
       const V expected = hn::MulAdd(slope, hn::Set(d, static_cast<float>(k)), s0);
       const V gap = hn::Mul(hn::Sub(s, expected), per_edge);
-      // (1 - gap^2)^2 within the edge; background, and gaps that are not numbers, count nothing.
-      const V near = hn::NegMulAdd(gap, gap, one);
-      const V w = hn::Mul(hn::Mul(near, near), hn::Set(d, kWeights[k < 0 ? -k : k]));
-      const auto counts = hn::And(IsSurface(s), hn::Gt(near, zero));
-      sum = hn::Add(sum, hn::IfThenElseZero(counts, hn::Mul(w, hn::Sub(v, v0))));
-      weight_sum = hn::Add(weight_sum, hn::IfThenElseZero(counts, w));
+      const V weight = hn::Mul(leaf::edge_weight(gap), hn::Set(d, kWeights[k < 0 ? -k : k]));
+      const V w = hn::IfThenElseZero(IsSurface(s), weight);
+      sum = hn::MulAdd(w, hn::Sub(v, v0), sum);
+      weight_sum = hn::Add(weight_sum, w);
     }
     hn::StoreU(hn::Add(v0, hn::Div(sum, weight_sum)), d, out + x);
   }

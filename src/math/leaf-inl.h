@@ -33,6 +33,9 @@ HWY_INLINE Real leaf_fma(Real a, Real b, Real c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Real leaf_nfma(Real a, Real b, Real c) { return hn::NegMulAdd(a, b, c); }
 HWY_INLINE Real leaf_min(Real a, Real b) { return hn::Min(a, b); }
 HWY_INLINE Real leaf_max(Real a, Real b) { return hn::Max(a, b); }
+HWY_INLINE Real leaf_if_less(Real a, Real b, Real yes, Real no) {
+  return hn::IfThenElse(hn::Lt(a, b), yes, no);
+}
 HWY_INLINE Real leaf_if_negative(Real x, Real yes, Real no) {
   return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), yes, no);
 }

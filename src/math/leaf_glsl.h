@@ -12,5 +12,6 @@
 #define leaf_nfma(a, b, c) fma(-(a), b, c)
 #define leaf_min min
 #define leaf_max max
+#define leaf_if_less(a, b, yes, no) ((a) < (b) ? (yes) : (no))
 #define leaf_if_negative(x, yes, no) ((x) < 0.0 ? (yes) : (no))
 #define leaf_copysign(magnitude, z) ((z) < 0.0 ? -(magnitude) : (magnitude))

@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
+#include "filters/edge_leaf.h"
 #include "math/slab_leaf.h"
 #define PASS_CONSTANTS float longest_edge;
 #include "vulkan/view.glsl"
@@ -57,12 +58,10 @@ void load(ivec2 corner) {
 
 vec3 normal_at(int i) { return vec3(normal[i], normal[kCells + i], normal[2 * kCells + i]); }
 
-// Of the receiver's surface per pixel: the smaller of the two one-sided differences.
 float slope_at(int i, int step) {
   const float s = surface[i], next = surface[i + step], last = surface[i - step];
   const float after = next > 0.0 ? next - s : kInf, before = last > 0.0 ? s - last : kInf;
-  const float slope = abs(after) <= abs(before) ? after : before;
-  return abs(slope) < kInf ? slope : 0.0;
+  return surface_slope(after, before);
 }
 
 // Weight of tap k: by how near its surface lies to the continuation of the receiver's, and by how
@@ -70,11 +69,11 @@ float slope_at(int i, int step) {
 float tap_weight(int i, int k, int step, float slope, float per_edge, vec3 n) {
   const float s = surface[i + k * step];
   const float gap = (s - (slope * float(k) + surface[i])) * per_edge;
-  const float near = 1.0 - gap * gap;
+  const float near = edge_weight(gap);
   if (!(s > 0.0 && near > 0.0)) return 0.0;
   const float alike = max(dot(n, normal_at(i + k * step)), 0.0);
   const float sharp = alike * alike;
-  return near * near * sharp * sharp * (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
+  return near * sharp * sharp * (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
 }
 
 float edge() {

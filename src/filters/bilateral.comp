@@ -3,6 +3,8 @@
 // nothing goes through memory between the two directions.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "filters/edge_leaf.h"
 #define PASS_CONSTANTS float edge;
 #include "vulkan/view.glsl"
 
@@ -45,17 +47,14 @@ struct Receiver {
 Receiver receiver_at(int i, int step) {
   const float s = surfaces[i], last = surfaces[i - step], next = surfaces[i + step];
   const float after = next > 0.0 ? next - s : kInf, before = last > 0.0 ? s - last : kInf;
-  // Of the two one-sided differences the smaller.
-  const float slope = abs(after) <= abs(before) ? after : before;
   const float scale = view.orthographic != 0 ? 1.0 : s * s;
-  return Receiver(s, abs(slope) < kInf ? slope : 0.0, 1.0 / view.edge / scale);
+  return Receiver(s, surface_slope(after, before), 1.0 / view.edge / scale);
 }
 
 float tap_weight(Receiver r, int i, int step, int k) {
   const float s = surfaces[i + k * step];
   const float gap = (s - (r.slope * float(k) + r.surface)) * r.per_edge;
-  const float near = 1.0 - gap * gap;
-  return s > 0.0 && near > 0.0 ? near * near * kWeights[abs(k)] : 0.0;
+  return s > 0.0 ? edge_weight(gap) * kWeights[abs(k)] : 0.0;
 }
 
 float blur_row(int i) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "shaders/far_field_scan.h"
 #include "shaders/far_field_sum.h"
 #include "vulkan/program.h"
+#include "vulkan/quads.h"
 
 namespace obscura::vulkan {
 namespace {
@@ -33,32 +33,6 @@ constexpr int kLeastRestart = 5;  // sums restart every 32 lines or more
 constexpr int kSharedLevels = 4;  // of the pyramid, that the scan makes in shared memory
 // Scanned lines of one batch of directions; beyond this a batch has one direction.
 constexpr VkDeviceSize kBatchBytes = VkDeviceSize{32} << 20;
-
-std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-std::uint32_t bits(int value) { return static_cast<std::uint32_t>(value); }
-
-// Tables of four words, as shaders read them.
-class Quads {
- public:
-  int size() const { return static_cast<int>(words_.size() / 4); }
-  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    for (std::uint32_t word : {a, b, c, d}) words_.push_back(std::bit_cast<float>(word));
-  }
-  void set(int quad, int word, int value) {
-    words_[4 * quad + word] = std::bit_cast<float>(bits(value));
-  }
-  int get(int quad, int word) const { return std::bit_cast<int>(words_[4 * quad + word]); }
-  int add_floats(std::span<const float> values) {
-    const int start = size();
-    words_.insert(words_.end(), values.begin(), values.end());
-    words_.resize((words_.size() + 3) / 4 * 4, 0.0f);
-    return start;
-  }
-  std::span<const float> words() const { return words_; }
-
- private:
-  std::vector<float> words_;
-};
 
 // The depth image in one orientation.
 struct PlaneShape {
@@ -125,7 +99,7 @@ class FarFieldProgram {
       add_evaluation(b);
     }
     add_collect();
-    program_->tables.assign(quads_.words().begin(), quads_.words().end());
+    program_->tables = quads_.words();
     program_->regions[tables_] = program_->tables.size() * sizeof(float);
   }
 

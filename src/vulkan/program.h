@@ -78,6 +78,7 @@ Status make_program(const HemisphereSettings& settings, const FrameShape& shape,
 Status make_program(const FarFieldSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const HorizonSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program);
+Status make_program(const MipmapSettings& settings, const FrameShape& shape, Program* program);
 Status make_program(const PointSettings& settings, const FrameShape& shape, Program* program);
 
 }  // namespace obscura::vulkan

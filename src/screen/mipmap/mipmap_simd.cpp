@@ -64,7 +64,6 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
   const V perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
   const float last_u = static_cast<float>(g.width) - 0.5f, last_v = g.height - 0.5f;
   constexpr float kPi = std::numbers::pi_v<float>;
-  const float sector = 2 * std::tan(kPi / static_cast<float>(f.directions));
   for (int x = 0; x < g.visible_width(); x += static_cast<int>(hn::Lanes(d))) {
     const int at = x + g.guard_band.left;
     const V depth = hn::LoadU(d, g.depth.row(y) + at);
@@ -80,14 +79,12 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
     const V nv = hn::Neg(hn::LoadU(d, g.normal_y.row(y) + at));
     const V nw = hn::Neg(hn::LoadU(d, g.normal_z.row(y) + at));
     V sum = zero;
-    for (int k = 0; k < f.directions; ++k) {
-      const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(f.directions);
-      const float width = kPi / static_cast<float>(f.directions);
-      auto step_at = [&](float t) {
-        return ImageStep{std::cos(t) * c.scale_x, std::sin(t) * c.scale_y};
+    for (const MipmapDirection& direction : f.directions) {
+      auto step_at = [&](float step_u, float step_v) {
+        return ImageStep{step_u * c.scale_x, step_v * c.scale_y};
       };
-      const float du = std::cos(angle), dv = std::sin(angle);
-      const Azimuth<V> azimuth = MakeAzimuth(d, ray, step_at(angle), nu, nv, nw);
+      const float du = direction.u, dv = direction.v;
+      const Azimuth<V> azimuth = MakeAzimuth(d, ray, step_at(du, dv), nu, nv, nw);
       const Slice<V> slice = MakeSlice(d, azimuth.nz, azimuth.nt, camera, perspective);
       Horizon<D> h = StartHorizon(d, slice, true);
       // Distance to the image's last texel centres along the direction.
@@ -96,24 +93,21 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
       if (du < -1e-6f) edge = hn::Mul(hn::Sub(half, u0), hn::Set(d, 1 / du));
       const float reach = dv > 1e-6f ? (last_v - v0) / dv : dv < -1e-6f ? (0.5f - v0) / dv : 1e9f;
       edge = hn::Min(edge, hn::Set(d, reach));
-      float distance = 1, step = 1;
       V before = zero;
-      for (;;) {
-        const V t = hn::Min(hn::Set(d, distance), edge);
+      for (const MipmapStep& step : f.steps) {
+        const V t = hn::Min(hn::Set(d, step.distance), edge);
         const auto fresh = hn::Gt(t, before);
         if (hn::AllFalse(d, fresh)) break;
         before = t;
         const V u = hn::MulAdd(t, hn::Set(d, du), u0);
         const V v = hn::MulAdd(t, hn::Set(d, dv), hn::Set(d, v0));
-        const float lod = std::clamp(std::log2(std::max(distance * sector, 1e-6f)), 0.0f,
-                                     static_cast<float>(f.level_count - 1) - 0.001f);
-        const int level = f.level_count > 1 ? static_cast<int>(lod) : 0;
+        const int level = step.level;
         V q = ReadLevel(f, level, u, v);
         auto found = hn::Gt(q, zero);
         if (f.interpolate && level + 1 < f.level_count) {
           const V coarse = ReadLevel(f, level + 1, u, v);
           found = hn::And(found, hn::Gt(coarse, zero));
-          q = hn::MulAdd(hn::Set(d, lod - static_cast<float>(level)), hn::Sub(coarse, q), q);
+          q = hn::MulAdd(hn::Set(d, step.blend), hn::Sub(coarse, q), q);
         }
         q = hn::IfThenElse(found, q, one);
         const V pixels = c.orthographic ? t : hn::Mul(t, q);
@@ -121,10 +115,9 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
         const V py = hn::NegMulAdd(pixels, azimuth.along_ray, hn::Mul(ray.length, hn::Sub(p, q)));
         AddPoint<kKind, false, false>(d, *f.rho, slice, px, py,
                                       hn::And(hn::And(found, fresh), surface), one, h);
-        step *= f.step_factor;
-        distance += step;
       }
-      const V w = AzimuthBetween(d, ray, step_at(angle - width), step_at(angle + width));
+      const V w = AzimuthBetween(d, ray, step_at(direction.low_u, direction.low_v),
+                                 step_at(direction.high_u, direction.high_v));
       sum = hn::MulAdd(w, h.sum, sum);
     }
     const V visibility = hn::NegMulAdd(sum, hn::Set(d, 1 / kPi), one);

@@ -1,0 +1,129 @@
+// Slices from the depth pyramid, mipmap_simd.cpp; symbols as there.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#define PASS_CONSTANTS                                  \
+  float rho_radius, inverse_radius, entries_per_length; \
+  int last_entry, rho_start;                            \
+  int levels, directions, steps, step_count, level_count;
+#include "vulkan/view.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kFalloff = 1;  // FalloffKind
+layout(constant_id = 1) const int kDirections = 16;
+layout(constant_id = 2) const bool kInterpolate = true;
+const bool kChord = false;
+const int kSums = 0;
+
+layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
+layout(binding = 1) readonly buffer Depth { float depth[]; };
+layout(binding = 2) readonly buffer Pyramid { float pyramid[]; };
+layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
+layout(binding = 4) uniform writeonly image2D visibility;
+
+float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
+
+#include "math/falloff.glsl"
+#include "math/slab.glsl"
+#include "screen/mipmap/mipmap.glsl"
+
+const float kPi = 3.14159265;
+
+float fetch(int level, ivec2 p) {
+  return texel_of(level, clamp(p, ivec2(0), level_size(level) - 1));
+}
+
+// Depth of a level at pixel coordinates, 0 where any texel read is background.
+float read_level(int level, vec2 at) {
+  const vec2 p = at / float(1 << level) - (kInterpolate ? 0.5 : 0.0);
+  const ivec2 i = ivec2(floor(p));
+  const float a = fetch(level, i);
+  if (!kInterpolate) return a;
+  const float b = fetch(level, i + ivec2(1, 0)), c = fetch(level, i + ivec2(0, 1));
+  const float e = fetch(level, i + 1);
+  const vec2 s = p - floor(p);
+  const float top = fma(s.x, b - a, a), bottom = fma(s.x, e - c, c);
+  return min(min(a, b), min(c, e)) > 0.0 ? fma(s.y, bottom - top, top) : 0.0;
+}
+
+struct Receiver {
+  float depth, ray_length;
+  vec2 at, ray;
+  vec3 normal;  // (u, v, w), w away from the camera
+};
+
+float along_ray(Receiver r, vec2 e) {
+  return part_along_ray(r.ray.x, r.ray.y, 1.0 / r.ray_length, e.x, e.y);
+}
+
+// Pixels to the image's last texel centres along a direction.
+float distance_to_edge(vec2 at, vec2 d) {
+  const vec2 last = vec2(view.width, view.height) - 0.5;
+  const vec2 far = vec2(d.x > 0.0 ? last.x : 0.5, d.y > 0.0 ? last.y : 0.5);
+  return min(abs(d.x) > 1e-6 ? (far.x - at.x) / d.x : 1e9,
+             abs(d.y) > 1e-6 ? (far.y - at.y) / d.y : 1e9);
+}
+
+void add_samples(Receiver r, Slice slice, vec2 d, float along, float across, inout Horizon h) {
+  const float edge = distance_to_edge(r.at, d);
+  float before = 0.0;
+  for (int k = 0; k < view.step_count; ++k) {
+    const uvec4 entry = quads[view.steps + k];
+    const float t = min(uintBitsToFloat(entry.x), edge);
+    if (!(t > before)) break;
+    before = t;
+    const vec2 at = r.at + t * d;
+    const int level = int(entry.y);
+    float q = read_level(level, at);
+    bool found = q > 0.0;
+    if (kInterpolate && level + 1 < view.level_count) {
+      const float coarse = read_level(level + 1, at);
+      found = found && coarse > 0.0;
+      q = fma(uintBitsToFloat(entry.z), coarse - q, q);
+    }
+    if (!found) q = 1.0;
+    const float pixels = view.orthographic != 0 ? t : t * q;
+    add_point(slice, vec2(pixels * across, r.ray_length * (r.depth - q) - pixels * along), found,
+              h);
+  }
+}
+
+// Obscurance of one direction's sector.
+float slice_of(Receiver r, int k) {
+  const vec2 scale = vec2(view.scale_x, view.scale_y);
+  const vec4 a = uintBitsToFloat(quads[view.directions + 2 * k]);
+  const vec2 middle = a.xy * scale, low = a.zw * scale;
+  const vec2 high = uintBitsToFloat(quads[view.directions + 2 * k + 1].xy) * scale;
+  const float along = along_ray(r, middle), across = part_across_ray(along, dot(middle, middle));
+  const float nz = -dot(r.normal, vec3(r.ray, 1.0)) / r.ray_length;
+  const float nt = (dot(r.normal.xy, middle) + nz * along) / across;
+  const bool parallel = view.orthographic != 0;
+  const Slice slice =
+      make_slice(nz, nt, parallel ? 1.0 : r.depth * r.ray_length, parallel ? 0.0 : 1.0);
+  Horizon h = start_horizon(slice, true);
+  add_samples(r, slice, a.xy, along, across, h);
+  const float area = abs(low.x * high.y - low.y * high.x);
+  return h.sum * angle_around_ray(1.0 / r.ray_length, along_ray(r, low), along_ray(r, high), area,
+                                  dot(low, high));
+}
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (p.x >= view.visible_width || p.y >= view.visible_height) return;
+  const ivec2 texel = p + ivec2(view.left, view.top);
+  const float d = depth[texel.y * view.width + texel.x];
+  const vec3 n = normals[p.y * view.visible_width + p.x].xyz;
+  Receiver r;
+  r.depth = d;
+  r.at = vec2(texel) + 0.5;
+  r.ray = view.orthographic != 0 ? vec2(0.0)
+                                 : (r.at - vec2(view.center_u, view.center_v)) *
+                                       vec2(view.scale_x, view.scale_y);
+  r.ray_length = sqrt(dot(r.ray, r.ray) + 1.0);
+  r.normal = vec3(n.x, -n.y, -n.z);
+  float sum = 0.0;
+  for (int k = 0; d < kInf && k < kDirections; ++k) sum += slice_of(r, k);
+  imageStore(visibility, p, vec4(clamp(1.0 - sum / kPi, 0.0, 1.0)));
+}

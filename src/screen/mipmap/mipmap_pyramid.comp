@@ -1,0 +1,62 @@
+// Five levels of the depth pyramid (mipmap.cpp, build) from one: a group takes 32x32 texels and halves
+// them in shared memory. Means or minima of the finite depths among four; 0 where none is.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define PASS_CONSTANTS int levels, source, count;
+#include "vulkan/view.glsl"
+
+const int kTile = 32, kThreads = 256;
+layout(local_size_x = 256) in;
+layout(constant_id = 0) const bool kMean = true;
+
+layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
+layout(binding = 1) readonly buffer Depth { float depth[]; };
+layout(binding = 2) buffer Pyramid { float pyramid[]; };
+
+#define WRITES_PYRAMID
+#include "screen/mipmap/mipmap.glsl"
+
+shared float tiles[2][kTile * kTile];
+
+// Texel 2 p of a tile `size` a side and its neighbours, those beyond the level's edge again.
+float halved(int from, int size, ivec2 p, ivec2 last) {
+  const ivec2 a = 2 * p, b = min(a + 1, last);
+  const vec4 four = vec4(tiles[from][a.y * size + a.x], tiles[from][a.y * size + b.x],
+                         tiles[from][b.y * size + a.x], tiles[from][b.y * size + b.x]);
+  float sum = 0.0, nearest = 0.0, finite = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (four[i] == 0.0) continue;
+    nearest = finite == 0.0 ? four[i] : min(nearest, four[i]);
+    sum += four[i];
+    finite += 1.0;
+  }
+  return finite == 0.0 ? 0.0 : kMean ? sum / finite : nearest;
+}
+
+void main() {
+  const int thread = int(gl_LocalInvocationIndex);
+  const ivec2 group = ivec2(gl_WorkGroupID.xy);
+  const ivec2 source_size = level_size(view.source);
+  for (int i = thread; i < kTile * kTile; i += kThreads) {
+    const ivec2 p = min(group * kTile + ivec2(i % kTile, i / kTile), source_size - 1);
+    tiles[0][i] = texel_of(view.source, p);
+  }
+  int from = 0;
+  for (int k = 1; k <= 5; ++k) {
+    barrier();
+    const int size = kTile >> k, level = view.source + k;
+    if (level < view.count) {
+      const ivec2 corner = group * size, level_end = level_size(level) - 1;
+      // The last texel of the finer level, in this tile.
+      const ivec2 last = level_size(level - 1) - 1 - 2 * corner;
+      for (int i = thread; i < size * size; i += kThreads) {
+        const ivec2 p = ivec2(i % size, i / size);
+        if (any(greaterThan(corner + p, level_end))) continue;
+        const float value = halved(from, 2 * size, p, last);
+        tiles[1 - from][i] = value;
+        store_texel(level, corner + p, value);
+      }
+    }
+    from = 1 - from;
+  }
+}

@@ -8,6 +8,7 @@
 #include "math/slab_leaf.h"
 #define PASS_CONSTANTS float longest_edge;
 #include "vulkan/view.glsl"
+#define DIRECTIONS_BINDING 7
 #include "vulkan/visibility.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -28,7 +29,6 @@ layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
 layout(binding = 4) readonly buffer Open { float open_sums[]; };
 layout(binding = 5) readonly buffer Directions { vec4 sums[]; };
 layout(binding = 6) readonly buffer Farthest { float farthest[]; };
-layout(binding = 7) uniform writeonly image2D bent_normal;
 
 const int kTile = 16, kSide = kTile + 2 * kReach, kCells = kSide * kSide;
 const int kThreads = 128;
@@ -123,7 +123,7 @@ void blur_column(int i, int t, out float result[kChannels]) {
 
 void store_direction(ivec2 p, vec3 direction, float angle) {
   const vec3 stored = kUnsigned ? 0.5 * direction + 0.5 : direction;
-  imageStore(bent_normal, p, vec4(stored, angle / 1.57079633));
+  write_direction(p, vec4(stored, angle / 1.57079633));
 }
 
 // math/cone-inl.h, FinishCone.

@@ -6,6 +6,9 @@
 namespace obscura {
 
 inline constexpr int kBetweenChannels = 14;
+// Depths that differ by more than so many pixels' size, from what a plane would give, are kept
+// apart.
+inline constexpr float kBetweenEdge = 4;
 
 // Values at pixels between two that have them, one row at a time: the mean of both where the three
 // surfaces go on as one plane, and of the two the one that is nearer in depth where they do not.

@@ -13,7 +13,8 @@ layout(local_size_x = 128) in;
 
 layout(binding = 0) readonly buffer Depth { float depth[]; };
 layout(binding = 1) readonly buffer Values { float values[]; };
-layout(binding = 2) uniform writeonly image2D visibility;
+#define VISIBILITY_BINDING 2
+#include "vulkan/results.glsl"
 
 const int kReach = 4;
 const float kWeights[kReach + 1] = float[](70, 56, 28, 8, 1);
@@ -98,6 +99,6 @@ void main() {
     if (p.x >= view.visible_width || p.y >= view.visible_height) continue;
     const int at = (cell.y + kReach) * kStride + cell.x + kReach;
     const bool surface = surfaces[at] > 0.0;
-    imageStore(visibility, p, vec4(surface ? blur_column(at, i + kReach * kWidth) : 1.0));
+    write_visibility(p, surface ? blur_column(at, i + kReach * kWidth) : 1.0);
   }
 }

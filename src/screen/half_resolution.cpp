@@ -6,31 +6,19 @@
 
 #include "filters/between_kernel.h"
 #include "filters/bilateral_kernel.h"
+#include "view/half.h"
 
 namespace obscura {
 namespace {
 
-// Depths that differ by more than this many pixels, from what a plane would give, are kept apart.
-constexpr float kEdgePixels = 4;
 constexpr int kRowsPerTask = 8;  // of the half image
 constexpr int kRows = 2 * kRowsPerTask + 1;
 constexpr int kMargin = 16;  // left and right of rows: kernels read and write whole vectors
 
-// Which pixels of the whole image are seen: first + 2 i.
-struct Axis {
-  int first = 0, size = 0, before = 0, visible = 0;
-};
-Axis halve(int size, int before, int visible) {
-  Axis a;
-  a.first = before % 2;
-  a.before = before / 2;
-  a.size = half_of(size - a.first);
-  a.visible = half_of(visible);
-  return a;
-}
+using view::HalfAxis;
 
-void halve(const AlignedImage<float>& from, const Axis& x, const Axis& y, Executor& executor,
-           AlignedImage<float>* to) {
+void halve(const AlignedImage<float>& from, const HalfAxis& x, const HalfAxis& y,
+           Executor& executor, AlignedImage<float>* to) {
   to->resize(x.size, y.size);
   executor.parallel_for(y.size, [&](int row, int) {
     const float* source = from.row(y.first + 2 * row) + x.first;
@@ -41,21 +29,15 @@ void halve(const AlignedImage<float>& from, const Axis& x, const Axis& y, Execut
 
 void halve(const view::Geometry& g, Executor& executor, view::Geometry* half) {
   const GuardBand& guard = g.guard_band;
-  const Axis x = halve(g.width, guard.left, g.visible_width());
-  const Axis y = halve(g.height, guard.top, g.visible_height());
+  const HalfAxis x = view::halve(g.width, guard.left, g.visible_width());
+  const HalfAxis y = view::halve(g.height, guard.top, g.visible_height());
   half->width = x.size;
   half->height = y.size;
-  half->guard_band = {x.before, x.size - x.before - x.visible, y.before,
-                      y.size - y.before - y.visible};
-  half->camera = g.camera;
-  half->camera.scale_x = 2 * g.camera.scale_x;
-  half->camera.scale_y = 2 * g.camera.scale_y;
-  half->camera.center_u = 0.5f * (g.camera.center_u - x.first + 0.5f);
-  half->camera.center_v = 0.5f * (g.camera.center_v - y.first + 0.5f);
+  half->guard_band = {x.before, x.after(), y.before, y.after()};
+  half->camera = view::halve(g.camera, x, y);
   half->has_normals = g.has_normals;
-  half->min_depth = g.min_depth;
-  half->max_depth = g.max_depth;
   halve(g.depth, x, y, executor, &half->depth);
+  view::find_depth_range(executor, half);
   if (g.has_normals) {
     halve(g.normal_x, x, y, executor, &half->normal_x);
     halve(g.normal_y, x, y, executor, &half->normal_y);
@@ -194,7 +176,7 @@ class HalfResolution final : public Method {
     BetweenRow row;
     row.channels = static_cast<int>(channels.size());
     row.orthographic = g.camera.orthographic;
-    row.edge = kEdgePixels * pixel;
+    row.edge = kBetweenEdge * pixel;
     row.surface = rows->row(0, at);
     for (int k = 0; k < 3 && g.has_normals; ++k) row.normal[k] = rows->row(kNormalPlane + k, at);
     for (int c = 0; c < row.channels; ++c) {

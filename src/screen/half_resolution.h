@@ -7,12 +7,9 @@
 
 namespace obscura {
 
-// Of `size` pixels.
-inline int half_of(int size) { return (size + 1) / 2; }
-
 // A method that sees every second pixel of every second row of the visible part, as an image of its
 // own by a camera of its own, so that every depth stays where it was measured. `method` is made for
-// images of half_of(width) x half_of(height). The pixels between are filled in from their
+// images of view::half_of(width) x view::half_of(height). The pixels between are filled in from their
 // neighbours (filters/between_kernel.h), directions as differences to the normal.
 std::unique_ptr<Method> make_half_resolution(std::unique_ptr<Method> method);
 

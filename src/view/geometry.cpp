@@ -168,6 +168,17 @@ Status convert_image(const DepthField& field, const ImageView<const float>& in, 
   return first_bad == kNone ? Status() : bad_depth(field, in, name, first_bad);
 }
 
+// A back that is missing or in front of its own front means no thickness at all.
+void clamp_back(const AlignedImage<float>& front, Executor& executor, AlignedImage<float>* back) {
+  executor.parallel_for(front.height(), [&](int y, int) {
+    const float* f = front.row(y);
+    float* b = back->row(y);
+    for (int x = 0; x < front.width(); ++x) b[x] = std::max(b[x], f[x]);
+  });
+}
+
+}  // namespace
+
 void find_depth_range(Executor& executor, Geometry* g) {
   std::vector<float> lo(g->height, kInf), hi(g->height, 0.0f);
   const int tasks = (g->height + kRowsPerTask - 1) / kRowsPerTask;
@@ -187,17 +198,6 @@ void find_depth_range(Executor& executor, Geometry* g) {
   g->max_depth = *std::max_element(hi.begin(), hi.end());
   if (g->min_depth == kInf) g->min_depth = 0;
 }
-
-// A back that is missing or in front of its own front means no thickness at all.
-void clamp_back(const AlignedImage<float>& front, Executor& executor, AlignedImage<float>* back) {
-  executor.parallel_for(front.height(), [&](int y, int) {
-    const float* f = front.row(y);
-    float* b = back->row(y);
-    for (int x = 0; x < front.width(); ++x) b[x] = std::max(b[x], f[x]);
-  });
-}
-
-}  // namespace
 
 Status convert(const DepthField& field, const Needs& needs, Executor& executor,
                Geometry* geometry) {

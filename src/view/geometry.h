@@ -42,6 +42,9 @@ struct Needs {
 // Checks a depth field and converts it, reusing the storage of `geometry`.
 Status convert(const DepthField& field, const Needs& needs, Executor& executor, Geometry* geometry);
 
+// Of `depth`.
+void find_depth_range(Executor& executor, Geometry* geometry);
+
 }  // namespace obscura::view
 
 #endif  // OBSCURA_SRC_VIEW_GEOMETRY_H_

@@ -5,6 +5,7 @@
 
 namespace obscura::vulkan {
 Geometry add_geometry(const FrameShape& shape, bool normals, Program* program) {
+  if (program->geometry.depth >= 0) return program->geometry;
   const auto pixels = static_cast<VkDeviceSize>(shape.width) * shape.height;
   const auto visible = static_cast<VkDeviceSize>(visible_width(shape)) * visible_height(shape);
   Geometry g;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obscura/vulkan.h"
+#include "vulkan/shader.h"
 
 namespace obscura::vulkan {
 
@@ -26,15 +27,26 @@ inline constexpr std::size_t kMaxPush = 16;
 
 struct Pass {
   const char* name;  // passes of equal name are one in reports
-  std::span<const std::uint32_t> spirv;
+  Shader spirv;
   std::vector<std::uint32_t> constants{};  // specialization constants 0, 1, ...; bool as 0 and 1
   std::vector<Slot> slots{};               // binding 0, 1, ...
   int width = 1, height = 1, layers = 1;   // invocations in x and y, groups in z
   int group_x = 8, group_y = 8;            // what of them one group does
   float radius = 0, thickness = 0;         // in FrameConstants
   std::vector<std::uint32_t> push{};       // PASS_CONSTANTS of view.glsl, at most kMaxPush
-  bool overlaps = false;   // depends on nothing that the pass before writes: no barrier between
-  VkDeviceSize bytes = 0;  // that it touches, if not all of what its slots name
+  bool overlaps = false;    // depends on nothing that the pass before writes: no barrier between
+  bool half = false;        // FrameConstants are those of half_shape()
+  bool to_scratch = false;  // the shader's second form
+  VkDeviceSize bytes = 0;   // that it touches, if not all of what its slots name
+
+  std::span<const std::uint32_t> words() const {
+    return to_scratch ? spirv.to_scratch : spirv.words;
+  }
+};
+
+// The passes that every method begins with: linear depth, then normals where they are wanted.
+struct Geometry {
+  int depth = -1, normals = -1;  // regions; normals -1: none
 };
 
 // A method as passes over regions of scratch memory, one after the other. Passes whose shader,
@@ -44,6 +56,7 @@ struct Program {
   std::vector<Pass> passes;
   std::vector<float> tables;  // uploaded once to `table_region`
   int table_region = -1;
+  Geometry geometry{};  // where it is there already
 
   int add_region(VkDeviceSize bytes) {
     regions.push_back(bytes);
@@ -66,10 +79,7 @@ inline int visible_height(const FrameShape& s) {
   return s.height - s.guard_band.top - s.guard_band.bottom;
 }
 
-// The passes that every method begins with: linear depth, then normals where they are wanted.
-struct Geometry {
-  int depth = -1, normals = -1;  // regions; normals -1: none
-};
+// Adds the passes of the geometry, or gives the program's own.
 Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
 
 // In <method>_program.cpp.

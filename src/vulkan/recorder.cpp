@@ -6,6 +6,7 @@
 #include "obscura/vulkan.h"
 #include "vulkan/frame_constants.h"
 #include "vulkan/functions.h"
+#include "vulkan/half_program.h"
 #include "vulkan/program.h"
 
 namespace obscura::vulkan {
@@ -55,7 +56,14 @@ template <class Settings>
 Status program_of(const Settings& settings, const FrameShape& shape, Program* program) {
   if constexpr (requires { settings.resolution; }) {
     if (settings.resolution == Resolution::kHalf) {
-      return unsupported("on Vulkan the resolution is full");
+      return make_half_program(
+          shape,
+          [&](const FrameShape& half, Program* inner) {
+            Settings full = settings;
+            full.resolution = Resolution::kFull;
+            return program_of(full, half, inner);
+          },
+          program);
     }
   }
   if constexpr (requires { make_program(settings, shape, program); }) {
@@ -141,7 +149,9 @@ class Recorder::Impl {
 
   void record(VkCommandBuffer commands, int frame, const FrameView& view,
               const RecordOptions& options) const {
-    FrameConstants constants = constants_of(view);
+    const FrameConstants whole = constants_of(shape_, view.camera, view);
+    const FrameConstants half =
+        constants_of(half_, view::halve(view.camera, half_x_, half_y_), view);
     auto stamp = [&](std::size_t i) {
       if (!options.timestamps) return;
       f_.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, options.timestamps,
@@ -159,6 +169,7 @@ class Recorder::Impl {
       f_.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.pipeline);
       f_.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.layout, 0, 1,
                                &bindings_[stages_[i].binding].sets[frame], 0, nullptr);
+      FrameConstants constants = pass.half ? half : whole;
       constants.radius = pass.radius;
       constants.thickness = pass.thickness;
       f_.CmdPushConstants(commands, p.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
@@ -211,7 +222,7 @@ class Recorder::Impl {
 
   bool add_stage(const Pass& pass) {
     const auto p = std::ranges::find_if(pipelines_, [&](const Pipeline& other) {
-      return other.made_for->spirv.data() == pass.spirv.data() &&
+      return other.made_for->words().data() == pass.words().data() &&
              other.made_for->constants == pass.constants && same_types(*other.made_for, pass);
     });
     const auto pipeline = static_cast<std::size_t>(p - pipelines_.begin());
@@ -261,8 +272,8 @@ class Recorder::Impl {
   bool compile(const Pass& pass, Pipeline* stage) {
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = pass.spirv.size_bytes();
-    module_info.pCode = pass.spirv.data();
+    module_info.codeSize = pass.words().size_bytes();
+    module_info.pCode = pass.words().data();
     VkShaderModule module = VK_NULL_HANDLE;
     if (f_.CreateShaderModule(device_.device, &module_info, nullptr, &module) != VK_SUCCESS) {
       return false;
@@ -364,21 +375,21 @@ class Recorder::Impl {
     f_.UpdateDescriptorSets(device_.device, 1, &w, 0, nullptr);
   }
 
-  FrameConstants constants_of(const FrameView& v) const {
-    const GuardBand& g = shape_.guard_band;
-    return {.scale_x = v.camera.scale_x,
-            .scale_y = v.camera.scale_y,
-            .center_u = v.camera.center_u,
-            .center_v = v.camera.center_v,
-            .width = shape_.width,
-            .height = shape_.height,
-            .left = g.left,
-            .top = g.top,
-            .visible_width = shape_.width - g.left - g.right,
-            .visible_height = shape_.height - g.top - g.bottom,
+  static FrameConstants constants_of(const FrameShape& shape, const Camera& camera,
+                                     const FrameView& v) {
+    return {.scale_x = camera.scale_x,
+            .scale_y = camera.scale_y,
+            .center_u = camera.center_u,
+            .center_v = camera.center_v,
+            .width = shape.width,
+            .height = shape.height,
+            .left = shape.guard_band.left,
+            .top = shape.guard_band.top,
+            .visible_width = visible_width(shape),
+            .visible_height = visible_height(shape),
             .near_plane = v.near_plane,
             .far_plane = v.far_plane,
-            .orthographic = v.camera.orthographic,
+            .orthographic = camera.orthographic,
             .frame_index = static_cast<int>(v.frame_index & 0xFFFF),
             .radius = 0,
             .thickness = 0};
@@ -392,7 +403,8 @@ class Recorder::Impl {
   }
 
   const Device device_;
-  const FrameShape shape_;
+  const FrameShape shape_, half_ = half_shape(shape_);
+  const view::HalfAxis half_x_ = half_columns(shape_), half_y_ = half_rows(shape_);
   Functions f_;
   Program program_;
   std::vector<VkDeviceSize> offsets_;

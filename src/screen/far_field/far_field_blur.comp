@@ -15,8 +15,9 @@ layout(constant_id = 2) const bool kUnsigned = false;
 layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
 layout(binding = 1) readonly buffer Groups { vec4 groups[]; };  // normal, depth
 layout(binding = 2) readonly buffer Totals { float totals[]; };
-layout(binding = 3) uniform writeonly image2D visibility;
-layout(binding = 4) uniform writeonly image2D bent_normal;
+#define VISIBILITY_BINDING 3
+#define DIRECTIONS_BINDING 4
+#include "vulkan/results.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"

@@ -1,5 +1,5 @@
 // What the caller asked for, from the sums over all slices of a pixel (totals.cpp, finish). Before
-// this: kSums, kOutputs, kPaperCone, kUnsigned, buffers `normals` and images.
+// this: kSums, kOutputs, kPaperCone, kUnsigned, buffer `normals`, vulkan/results.glsl.
 const float kPi = 3.14159265;
 
 // Sums of a pixel: what totals.h has as channels; directions in eye space.
@@ -14,7 +14,7 @@ float cone_angle(float mean_length) {
 }
 
 void write_pixel(ivec2 p, vec3 normal, Sums sums) {
-  imageStore(visibility, p, vec4(clamp(1.0 - sums.obscurance / kPi, 0.0, 1.0)));
+  write_visibility(p, clamp(1.0 - sums.obscurance / kPi, 0.0, 1.0));
   if (kSums == 0) return;
   const vec3 integral = normal - sums.directions / kPi;
   const float length_of = length(integral), ambient = 1.0 - sums.solid / (2.0 * kPi);
@@ -23,6 +23,5 @@ void write_pixel(ivec2 p, vec3 normal, Sums sums) {
   const vec3 bent = open ? integral / length_of : normal;
   const float mean = ambient > 0.0 ? length_of / (2.0 * ambient) : 0.5;
   const float angle = open ? cone_angle(mean) : 0.0;
-  imageStore(bent_normal, p,
-             vec4(kUnsigned ? 0.5 * bent + 0.5 : bent, angle / 1.57079633));
+  write_direction(p, vec4(kUnsigned ? 0.5 * bent + 0.5 : bent, angle / 1.57079633));
 }

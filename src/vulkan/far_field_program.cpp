@@ -395,8 +395,8 @@ class FarFieldProgram {
   }
 
   // What passes that may be the last have in common.
-  Pass last_pass(const char* name, std::span<const std::uint32_t> spirv, std::vector<Slot> slots,
-                 int tile_width, int tile_height) const {
+  Pass last_pass(const char* name, const Shader& spirv, std::vector<Slot> slots, int tile_width,
+                 int tile_height) const {
     slots.push_back(Slot::image(Slot::kVisibilityImage));
     slots.push_back(Slot::image(sums_ == SliceSums::kVisibility ? Slot::kVisibilityImage
                                                                 : Slot::kBentNormalImage));

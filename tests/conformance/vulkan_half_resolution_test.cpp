@@ -25,6 +25,10 @@ TEST_F(VulkanHalfResolution, EveryMethodAgrees) {
   in.guard_band = {.left = 3, .right = 2, .top = 1, .bottom = 0};
   expect_same(in.field(), half<AreaSettings>(), "area");
   expect_same(in.field(), half<FarFieldSettings>(), "far-field", true);
+  FarFieldSettings shared = half<FarFieldSettings>();
+  shared.directions = 18;
+  shared.separable = 3;
+  expect_same(in.field(), shared, "far-field, separable");
   expect_same(in.field(), half<HemisphereSettings>(), "hemisphere", true);
   expect_same(in.field(), half<HorizonSettings>(), "horizon", true);
   expect_same(in.field(), half<LineSettings>(), "line");

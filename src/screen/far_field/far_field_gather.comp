@@ -16,8 +16,9 @@ layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
 layout(binding = 1) readonly buffer Accepted { uint accepted[]; };
 layout(binding = 2) readonly buffer Far { float far[]; };
 layout(binding = 3) buffer Totals { float totals[]; };
-layout(binding = 4) uniform writeonly image2D visibility;
-layout(binding = 5) uniform writeonly image2D bent_normal;
+#define VISIBILITY_BINDING 4
+#define DIRECTIONS_BINDING 5
+#include "vulkan/results.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #define STORES_TOTALS

@@ -83,7 +83,8 @@ template <class Settings>
 Status make_any(const Settings& s, int w, int h, std::unique_ptr<Method>* m) {
   if constexpr (requires { s.resolution; }) {
     if (s.resolution == Resolution::kHalf) {
-      if (Status status = make_method(s, view::half_of(w), view::half_of(h), m); !status.ok()) return status;
+      if (Status status = make_method(s, view::half_of(w), view::half_of(h), m); !status.ok())
+        return status;
       *m = make_half_resolution(std::move(*m));
       return {};
     }

@@ -65,5 +65,10 @@ TEST_F(VulkanArea, AgreesAroundIt) {
   }
 }
 
+TEST_F(VulkanArea, FramesTakeDifferentPatterns) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 7);
+  expect_frames_differ(in.field(), area(1, 4));
+}
+
 }  // namespace
 }  // namespace obscura

@@ -79,6 +79,19 @@ class VulkanTest : public ::testing::Test {
     for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;
   }
 
+  // What is random per pixel moves with the frame.
+  static void expect_frames_differ(const DepthField& field, const MethodSettings& settings) {
+    const int w = field.visible_width(), h = field.visible_height();
+    std::vector<float> frames[2];
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      frames[i].resize(std::size_t(w) * h);
+      const Status s = vulkan_->run(field, settings, {.visibility = {frames[i].data(), w, h}},
+                                    nullptr, {.frame_index = i});
+      ASSERT_TRUE(s.ok()) << s.message();
+    }
+    EXPECT_NE(frames[0], frames[1]);
+  }
+
   static inline support::HeadlessVulkan* vulkan_ = nullptr;
   static inline Status status_;
 };

@@ -107,6 +107,12 @@ TEST_F(VulkanPoint, ScreenAgreesAroundIt) {
   }
 }
 
+TEST_F(VulkanPoint, FramesTakeDifferentPatterns) {
+  const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 7);
+  expect_frames_differ(in.field(), ball(1));
+  expect_frames_differ(in.field(), screen(1));
+}
+
 TEST_F(VulkanPoint, WhatCannotRunIsRefused) {
   const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
   std::vector<float> out(4 * 256);

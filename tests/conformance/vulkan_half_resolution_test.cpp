@@ -32,6 +32,7 @@ TEST_F(VulkanHalfResolution, EveryMethodAgrees) {
   expect_same(in.field(), half<HemisphereSettings>(), "hemisphere", true);
   expect_same(in.field(), half<HorizonSettings>(), "horizon", true);
   expect_same(in.field(), half<LineSettings>(), "line");
+  expect_same(in.field(), half<MipmapSettings>(), "mipmap");
   expect_same(in.field(), half<PointSettings>(), "point");
   PointSettings screen = half<PointSettings>();
   screen.pattern = PointPattern::kScreen;

@@ -21,7 +21,8 @@ layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
 layout(binding = 1) readonly buffer Depth { float depth[]; };
 layout(binding = 2) readonly buffer Pyramid { float pyramid[]; };
 layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 4) uniform writeonly image2D visibility;
+#define VISIBILITY_BINDING 4
+#include "vulkan/results.glsl"
 
 float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
 
@@ -125,5 +126,5 @@ void main() {
   r.normal = vec3(n.x, -n.y, -n.z);
   float sum = 0.0;
   for (int k = 0; d < kInf && k < kDirections; ++k) sum += slice_of(r, k);
-  imageStore(visibility, p, vec4(clamp(1.0 - sum / kPi, 0.0, 1.0)));
+  write_visibility(p, clamp(1.0 - sum / kPi, 0.0, 1.0));
 }

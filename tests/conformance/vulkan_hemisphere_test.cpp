@@ -76,6 +76,11 @@ TEST_F(VulkanHemisphere, EveryFormat) {
   }
 }
 
+TEST_F(VulkanHemisphere, FramesTakeDifferentPatterns) {
+  const synthetic::Input in = scene(32, 24, 4);
+  expect_frames_differ(in.field(), hemisphere());
+}
+
 TEST_F(VulkanHemisphere, WhatCannotRunIsRefused) {
   const synthetic::Input in = scene(16, 16, 1);
   std::vector<float> out(256);

@@ -95,6 +95,41 @@ TEST_F(VulkanHorizon, EveryFormat) {
   }
 }
 
+// Frame 5 moves a pattern of 4 x 4 by (5, 1): what it gives of a view that has moved by as much, in
+// parallel rays, is what frame 0 gave.
+TEST_F(VulkanHorizon, FramesMoveThePattern) {
+  const int w = 60, h = 44, dx = 5, dy = 1, margin = 8;
+  const synthetic::Input in = scene(w, h, 9, true);
+  synthetic::Input moved = in;
+  for (int y = 0; y + dy < h; ++y) {
+    for (int x = 0; x + dx < w; ++x) {
+      moved.depth[std::size_t(y) * w + x] = in.depth[std::size_t(y + dy) * w + x + dx];
+    }
+  }
+  HorizonSettings s = horizon();
+  s.falloff = {.kind = FalloffKind::kConstant, .radius = 0.4f};
+  s.blur = false;
+  std::vector<float> still(std::size_t(w) * h), later(still), other(still);
+  auto run = [&](const synthetic::Input& input, std::uint32_t frame, std::vector<float>& out) {
+    const Status status = vulkan_->run(input.field(), s, {.visibility = {out.data(), w, h}},
+                                       nullptr, {.frame_index = frame});
+    ASSERT_TRUE(status.ok()) << status.message();
+  };
+  run(in, 0, still);
+  run(moved, 5, later);
+  run(moved, 0, other);
+  double same = 0, different = 0;
+  for (int y = margin; y < h - margin; ++y) {
+    for (int x = margin; x < w - margin - dx; ++x) {
+      const float expected = still[std::size_t(y + dy) * w + x + dx];
+      same = std::max(same, std::abs(double{expected} - later[std::size_t(y) * w + x]));
+      different = std::max(different, std::abs(double{expected} - other[std::size_t(y) * w + x]));
+    }
+  }
+  EXPECT_LT(same, 1e-3);
+  EXPECT_GT(different, 0.05);
+}
+
 TEST_F(VulkanHorizon, WhatCannotRunIsRefused) {
   const synthetic::Input in = scene(16, 16, 1);
   std::vector<float> out(256);

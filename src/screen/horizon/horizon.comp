@@ -41,7 +41,7 @@ struct Receiver {
   float ray_length;
   vec3 t1, t2;  // tangents (u, v, w)
   vec3 n;       // the normal
-  float nz, nr;
+  float nz, inverse_nz, nr;
 };
 
 Receiver make_receiver(ivec2 at, float z, vec3 normal) {
@@ -62,6 +62,7 @@ Receiver make_receiver(ivec2 at, float z, vec3 normal) {
   r.nz = -dot(n, ray) / r.ray_length;
   r.n = n - max(kEdgeOnNormal - r.nz, 0.0) / r.ray_length * ray;
   r.nz = max(r.nz, kEdgeOnNormal);
+  r.inverse_nz = 1.0 / r.nz;
   r.nr = -r.nz * r.ray_length;
   return r;
 }
@@ -110,7 +111,7 @@ Point point_at(Receiver r, Line line, float shift, int j) {
   const float away = view.orthographic != 0 ? r.distance : z;
   point.p.x = away * dot(k, line.t.xy);
   const float height = away * dot(k, r.n.xy) + (z - r.z) * r.nr;
-  point.p.y = (height - line.nt * point.p.x) / r.nz;
+  point.p.y = (height - line.nt * point.p.x) * r.inverse_nz;
   point.valid = point.valid && point.p.x > 0.0;
   return point;
 }

@@ -1,5 +1,5 @@
 // Obscura on a Vulkan device of one's own, without a window: depth in, ambient visibility out.
-//   example_vulkan_headless DEPTH VISIBILITY      (.exr or .pfm; .png to look at)
+//   example_vulkan_headless DEPTH VISIBILITY      (.pfm, .exr of one channel; .png to look at)
 // Depth is linear, inf where there is nothing; the camera sees 1 radian from top to bottom. Most of
 // this is what any renderer has already; Obscura's part is (1) to (6). docs/vulkan.md says more.
 #include <volk.h>

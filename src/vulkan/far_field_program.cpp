@@ -13,6 +13,8 @@
 #include "shaders/far_field_evaluate.h"
 #include "shaders/far_field_fill.h"
 #include "shaders/far_field_gather.h"
+#include "shaders/far_field_matter.h"
+#include "shaders/far_field_merge.h"
 #include "shaders/far_field_range.h"
 #include "shaders/far_field_scan.h"
 #include "shaders/far_field_sum.h"
@@ -48,6 +50,7 @@ struct PlaneShape {
   bool transposed;
   int width, height, left, top, visible_width, visible_height;
   int lattice = -1, receivers = -1, sums = -1;  // regions
+  int back = -1;                                // of finite occluders
   int averaged = -1, far_sums = -1;             // section 10
   int stride = 0;                               // of the lattice
 };
@@ -59,6 +62,7 @@ struct Batch {
   int table = 0;       // of directions
   int rows_table = 0;  // of strips to sum
   int raw_rows = 0, sum_rows = 0, lines = 0, strips = 0;
+  std::vector<int> merges{};  // tables, a level each
 };
 
 class FarFieldProgram {
@@ -95,7 +99,7 @@ class FarFieldProgram {
     for (Batch& b : batches_) {
       make_tables(&b);
       add_scan(b);
-      add_sum(b);
+      finite() ? add_merge(b) : add_sum(b);
       add_evaluation(b);
     }
     add_collect();
@@ -105,6 +109,13 @@ class FarFieldProgram {
 
  private:
   bool separable() const { return settings_.separable == 3; }
+  bool finite() const { return settings_.occluder.kind != OccluderKind::kSolid; }
+  // Of far_field_fill.comp.
+  std::uint32_t occluder() const {
+    return settings_.occluder.kind == OccluderKind::kSolid       ? 0
+           : settings_.occluder.kind == OccluderKind::kThickness ? 1
+                                                                 : 2;
+  }
   bool grouped() const { return separable() || settings_.jitter; }
   VkDeviceSize visible_pixels() const {
     return static_cast<VkDeviceSize>(visible_width(shape_)) * visible_height(shape_);
@@ -115,7 +126,14 @@ class FarFieldProgram {
   int sum_stride(const Batch& b) const {
     return (b.lines + 1 + line_phases() - 1) / line_phases() * line_phases();
   }
-  static VkDeviceSize raw_bytes(const Batch& b) { return VkDeviceSize{8} * b.raw_rows * b.lines; }
+  VkDeviceSize raw_bytes(const Batch& b) const {
+    return VkDeviceSize{finite() ? 16u : 8u} * b.raw_rows * b.lines;
+  }
+  // Of a direction's strips, those that are there before sums; finite occluders have no sums.
+  int raw_rows(const StripLevels& levels) const {
+    return finite() ? levels.all() : levels.start[std::min(levels.levels(), kSharedLevels)];
+  }
+  int sum_rows(const StripLevels& levels) const { return finite() ? 0 : levels.all(); }
   std::uint32_t slope() const { return bits(settings_.receiver_slope < 0 ? 1.0f : -1.0f); }
 
   void add_range() {
@@ -137,6 +155,8 @@ class FarFieldProgram {
     PlaneShape& p = *plane;
     p.stride = p.width + 2 * margin_;
     p.lattice = program_->add_region(VkDeviceSize{4} * p.stride * p.height);
+    // A binding wants a region even where the pass is specialised not to touch it.
+    p.back = finite() ? program_->add_region(VkDeviceSize{4} * p.stride * p.height) : p.lattice;
     p.receivers =
         p.transposed ? program_->add_region(visible_pixels() * 4 * sizeof(float)) : normals_;
     p.sums = program_->add_region(visible_pixels() * channels() * sizeof(float));
@@ -150,17 +170,19 @@ class FarFieldProgram {
   }
 
   void add_fill(const PlaneShape& p, bool lattice, int receivers, int turned) {
-    program_->passes.push_back({.name = "fill",
-                                .spirv = shaders::far_field_fill,
-                                .constants = {lattice},
-                                .slots = {Slot::of(depth_), Slot::of(receivers),
-                                          Slot::of(p.lattice), Slot::of(turned), Slot::of(kappa_)},
-                                .width = lattice ? p.stride : p.visible_width,
-                                .height = lattice ? p.height : p.visible_height,
-                                .group_x = kTile,
-                                .group_y = kTile,
-                                .push = {p.transposed, bits(p.stride), bits(margin_)},
-                                .overlaps = p.transposed && lattice});
+    program_->passes.push_back(
+        {.name = "fill",
+         .spirv = shaders::far_field_fill,
+         .constants = {lattice, occluder()},
+         .slots = {Slot::of(depth_), Slot::of(receivers), Slot::of(p.lattice), Slot::of(turned),
+                   Slot::of(kappa_), Slot::of(p.back), Slot::of(depth_)},
+         .width = lattice ? p.stride : p.visible_width,
+         .height = lattice ? p.height : p.visible_height,
+         .group_x = kTile,
+         .group_y = kTile,
+         .thickness = settings_.occluder.thickness,
+         .push = {p.transposed, bits(p.stride), bits(margin_)},
+         .overlaps = p.transposed && lattice});
   }
 
   void add_average() {
@@ -186,11 +208,10 @@ class FarFieldProgram {
       if (d.transposed != plane.transposed) continue;
       const StripLevels levels(plane.height, d.phase, settings_.interval);
       const int lines = LineLayout(plane.width, plane.height, d, settings_.line_step).lines;
-      const int raw_rows = levels.start[std::min(levels.levels(), kSharedLevels)];
       Batch larger = batch;
       larger.directions.push_back(&d);
-      larger.raw_rows += raw_rows;
-      larger.sum_rows += levels.all();
+      larger.raw_rows += raw_rows(levels);
+      larger.sum_rows += sum_rows(levels);
       larger.lines = std::max(larger.lines, lines);
       larger.strips = std::max(larger.strips, levels.strips(0));
       const VkDeviceSize bytes =
@@ -198,8 +219,8 @@ class FarFieldProgram {
       if (!batch.directions.empty() && bytes > kBatchBytes) {
         flush();
         batch.directions.push_back(&d);
-        batch.raw_rows = raw_rows;
-        batch.sum_rows = levels.all();
+        batch.raw_rows = raw_rows(levels);
+        batch.sum_rows = sum_rows(levels);
         batch.lines = lines;
         batch.strips = levels.strips(0);
       } else {
@@ -213,8 +234,9 @@ class FarFieldProgram {
   int add_taps(const PlaneShape& p, const Direction& d, const Segment& segment) {
     const int start = quads_.size();
     for (const far_field::NearTap& tap : segment.taps) {
+      const int offset = tap.dv * d.sign * p.stride + tap.du;
       quads_.add(bits(tap.along), bits(tap.wu), bits(tap.wv),
-                 bits(tap.dv * d.sign * p.stride + tap.du));
+                 bits(2 * offset + far_field::is_centred(segment, &tap - segment.taps.data())));
     }
     return start;
   }
@@ -270,8 +292,9 @@ class FarFieldProgram {
       const int lines = f.last + 1 - f.first;
       int& restart = (*restarts)[f.level];
       while (lines > 1 << restart) ++restart;
-      quads_.add(bits(levels.index(f.level, f.strip) | f.level << 24), bits(f.first),
-                 bits(f.last + 1), bits(1.0f / static_cast<float>(lines)));
+      quads_.add(bits(levels.index(f.level, f.strip) | f.level << 24),
+                 bits(finite() ? f.middle : f.first), bits(f.last + 1),
+                 bits(1.0f / static_cast<float>(lines)));
     }
     return count;
   }
@@ -291,7 +314,7 @@ class FarFieldProgram {
         quads_.set(quad, word, value);
       }
       quads_.set(quad + 1, 0, quads_.size());
-      quads_.set(quad + 1, 2, sum_base);
+      quads_.set(quad + 1, 2, finite() ? raw_base : sum_base);
       add_shifts(layout, p.height);
       for (int level = 0; level < std::min(levels.levels(), kSharedLevels); ++level) {
         quads_.set(quad + 2, level, levels.strips(level));
@@ -299,7 +322,7 @@ class FarFieldProgram {
       }
       std::vector<int> restarts(levels.levels(), kLeastRestart);
       add_reads(p, *d, levels, quad, &restarts);
-      for (int level = 0; level < levels.levels(); ++level) {
+      for (int level = 0; level < (finite() ? 0 : levels.levels()); ++level) {
         const int shared = std::min(level, kSharedLevels - 1), merged = 1 << (level - shared);
         for (int strip = 0; strip < levels.strips(level); ++strip) {
           const int first = strip * merged;
@@ -308,12 +331,37 @@ class FarFieldProgram {
                             bits(layout.lines), bits(restarts[level])});
         }
       }
-      raw_base += levels.start[std::min(levels.levels(), kSharedLevels)];
-      sum_base += levels.all();
+      raw_base += raw_rows(levels);
+      sum_base += sum_rows(levels);
       quad += 4;
     }
+    if (finite()) add_merges(&b);
     b.rows_table = quads_.size();
     for (const auto& s : strips) quads_.add(s[0], s[1], s[2], s[3]);
+  }
+
+  // Per level beyond the scan's, for each direction: its first strip and their number, and the same
+  // of the level below.
+  void add_merges(Batch* batch) {
+    int deepest = 0;
+    std::vector<StripLevels> pyramids;
+    for (const Direction* d : batch->directions) {
+      pyramids.emplace_back(batch->plane->height, d->phase, settings_.interval);
+      deepest = std::max(deepest, pyramids.back().levels());
+    }
+    for (int level = kSharedLevels; level < deepest; ++level) {
+      batch->merges.push_back(quads_.size());
+      int base = 0;
+      for (const StripLevels& p : pyramids) {
+        if (level < p.levels()) {
+          quads_.add(bits(base + p.start[level]), bits(p.strips(level)),
+                     bits(base + p.start[level - 1]), bits(p.strips(level - 1)));
+        } else {
+          quads_.add(0, 0, 0, 0);
+        }
+        base += p.all();
+      }
+    }
   }
 
   // Two rows per quad: where line 0 crosses them, in whole texels and what is left.
@@ -331,18 +379,34 @@ class FarFieldProgram {
 
   void add_scan(const Batch& b) {
     const PlaneShape& p = *b.plane;
-    program_->passes.push_back(
-        {.name = "scan",
-         .spirv = shaders::far_field_scan,
-         .constants = {bits(settings_.interval)},
-         .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(raw_)},
-         .width = b.lines,
-         .height = b.strips,
-         .layers = static_cast<int>(b.directions.size()),
-         .group_x = 32,
-         .group_y = 8,
-         .push = {p.transposed, bits(p.stride), bits(margin_), bits(b.table), bits(b.lines),
-                  bits(settings_.line_step), slope()}});
+    program_->passes.push_back({.name = "scan",
+                                .spirv = shaders::far_field_scan,
+                                .constants = {bits(settings_.interval), finite()},
+                                .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice),
+                                          Slot::of(p.back), Slot::of(raw_), Slot::of(raw_)},
+                                .width = b.lines,
+                                .height = b.strips,
+                                .layers = static_cast<int>(b.directions.size()),
+                                .group_x = 32,
+                                .group_y = 8,
+                                .push = {p.transposed, bits(p.stride), bits(margin_), bits(b.table),
+                                         bits(b.lines), bits(settings_.line_step), slope()}});
+  }
+
+  void add_merge(const Batch& b) {
+    int strips = b.strips >> (kSharedLevels - 1);
+    for (int table : b.merges) {
+      strips = (strips + 2) / 2;
+      program_->passes.push_back({.name = "scan",
+                                  .spirv = shaders::far_field_merge,
+                                  .slots = {Slot::of(tables_), Slot::of(raw_)},
+                                  .width = b.lines,
+                                  .height = strips,
+                                  .layers = static_cast<int>(b.directions.size()),
+                                  .group_x = 32,
+                                  .group_y = 8,
+                                  .push = {bits(table), bits(b.lines)}});
+    }
   }
 
   void add_sum(const Batch& b) {
@@ -376,13 +440,15 @@ class FarFieldProgram {
     const int phases = mode == kNearAlone ? 1 : phases_;
     program_->passes.push_back(
         {.name = "evaluate",
-         .spirv = shaders::far_field_evaluate,
+         .spirv = finite() ? std::span<const std::uint32_t>(shaders::far_field_matter)
+                           : shaders::far_field_evaluate,
          .constants = {static_cast<std::uint32_t>(rho_.kind),
                        settings_.profile == SlabProfile::kAdaptiveChord,
                        static_cast<std::uint32_t>(sums_), mode, bits(phases_),
                        bits(settings_.line_step), bits(settings_.segments)},
          .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(receivers),
-                   Slot::of(line_sums_), Slot::of(counts_), Slot::of(sums)},
+                   Slot::of(sums), Slot::of(finite() ? p.back : line_sums_),
+                   Slot::of(finite() ? raw_ : counts_)},
          .width = (p.visible_width + phases - 1) / phases,
          .height = p.visible_height,
          .layers = phases,
@@ -391,7 +457,7 @@ class FarFieldProgram {
          .push = {bits(rho_.radius), bits(rho_.inverse_radius), bits(rho_.entries_per_length),
                   bits(rho_.last_entry), bits(rho_start_), p.transposed, bits(p.stride),
                   bits(margin_), bits(b.table), bits(static_cast<int>(b.directions.size())),
-                  bits(sum_stride(b)), filled_[p.transposed]}});
+                  bits(finite() ? b.lines : sum_stride(b)), filled_[p.transposed], slope()}});
   }
 
   // What passes that may be the last have in common.
@@ -469,8 +535,8 @@ class FarFieldProgram {
 };
 
 Status check(const FarFieldSettings& s, const FrameShape& shape) {
-  if (s.occluder.kind != OccluderKind::kSolid) {
-    return unsupported("on Vulkan the far field's occluder is solid");
+  if (s.occluder.kind == OccluderKind::kBackDepth) {
+    return unsupported("on Vulkan the far field's occluder is solid or has a thickness");
   }
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("far-field needs normals; normal_use is none");

@@ -86,6 +86,32 @@ TEST_F(VulkanFarField, DirectionsAgree) {
   }
 }
 
+TEST_F(VulkanFarField, MatterOfAThicknessAgrees) {
+  for (bool orthographic : {false, true}) {
+    synthetic::Input in = synthetic::blocks(
+        75, 56,
+        orthographic ? Camera::orthographic_height(4, 75, 56) : Camera::perspective(1, 75, 56), 4);
+    in.guard_band = GuardBand::symmetric(2, 1);
+    auto same = [&](const char* what, bool directions, auto change) {
+      FarFieldSettings s = far_field(1);
+      s.occluder = Occluder::of_thickness(0.3f);
+      change(s);
+      expect_same(in.field(), s, what, directions);
+    };
+    same("thickness", true, [](auto&) {});
+    same("endless", false, [](auto& s) { s.occluder = Occluder::of_thickness(1e30f); });
+    same("short intervals", false, [](auto& s) { s.interval = 2; });
+    same("slope", false, [](auto& s) { s.receiver_slope = -1; });
+    same("far field alone", false, [](auto& s) { s.near_field = false; });
+    same("separable", false, [](auto& s) {
+      s.directions = 9;
+      s.separable = 3;
+      s.blur = false;
+    });
+    same("every second line", false, [](auto& s) { s.line_step = 2; });
+  }
+}
+
 FarFieldSettings shared_work(bool separable, bool blur, int line_step) {
   FarFieldSettings s = far_field(1);
   s.directions = separable ? 18 : 8;

@@ -10,26 +10,50 @@ const int kTile = 32;
 layout(local_size_x = 32, local_size_y = 8) in;
 
 layout(constant_id = 0) const bool kLattice = true;  // else receivers alone
+layout(constant_id = 1) const int kOccluder = 0;     // 0 solid, 1 of a thickness, 2 with a back
 
 layout(binding = 0) readonly buffer Depth { float depth[]; };
 layout(binding = 1) readonly buffer Receivers { vec4 receivers[]; };
 layout(binding = 2) writeonly buffer Lattice { float lattice[]; };
 layout(binding = 3) writeonly buffer Turned { vec4 turned_receivers[]; };
 layout(binding = 4) readonly buffer Kappa { float kappa[]; };
+layout(binding = 5) writeonly buffer Back { float backs[]; };
+layout(binding = 6) readonly buffer GivenBack { float given_backs[]; };
 
 #include "screen/far_field/far_field_lattice.glsl"
 
-shared float texels[kTile][kTile + 1];
+shared vec2 texels[kTile][kTile + 1];
 shared vec4 tile[kTile][kTile + 1];
+
+const float kFarBack = 1e12;  // matter without end, finite so that arithmetic is
+
+// Where a texel's matter ends; 0 on the background. Finite thickness is along the view ray.
+float back_of(ivec2 p, float d) {
+  if (kOccluder == 0 || !(d < kInf)) return 0.0;
+  if (kOccluder == 2) return min(given_backs[p.y * view.width + p.x], kFarBack);
+  const vec2 a = (vec2(p) - (vec2(view.center_u, view.center_v) - 0.5)) *
+                 vec2(view.scale_x, view.scale_y);
+  const float ray = view.orthographic != 0 ? 1.0 : sqrt(1.0 + dot(a, a));
+  return min(d + view.thickness / ray, kFarBack);
+}
+
+// What the lattices hold of a pixel; nothing outside the image.
+vec2 texel_at(ivec2 p) {
+  if (any(lessThan(p, ivec2(0))) || p.x >= view.width || p.y >= view.height) return vec2(0.0);
+  const float d = depth[p.y * view.width + p.x];
+  return vec2(lattice_value(d), back_of(p, d));
+}
+
+void store_texel(int at, vec2 texel) {
+  lattice[at] = texel.x;
+  if (kOccluder != 0) backs[at] = texel.y;
+}
 
 void fill_rows(ivec2 corner) {
   for (int y = int(gl_LocalInvocationID.y); y < kTile; y += 8) {
     const ivec2 p = corner + ivec2(gl_LocalInvocationID.x, y);
     if (p.x >= view.width + 2 * view.margin || p.y >= view.height) continue;
-    const int u = p.x - view.margin;
-    const bool inside = u >= 0 && u < view.width;
-    lattice[p.y * view.lattice_stride + p.x] =
-        inside ? lattice_value(depth[p.y * view.width + u]) : 0.0;
+    store_texel(p.y * view.lattice_stride + p.x, texel_at(ivec2(p.x - view.margin, p.y)));
   }
 }
 
@@ -37,9 +61,7 @@ void fill_rows(ivec2 corner) {
 void fill_columns(ivec2 corner) {
   const ivec2 at = ivec2(gl_LocalInvocationID.xy);
   for (int y = at.y; y < kTile; y += 8) {
-    const ivec2 p = ivec2(corner.y + at.x, corner.x - view.margin + y);
-    const bool inside = p.x < view.width && p.y >= 0 && p.y < view.height;
-    if (kLattice) texels[at.x][y] = inside ? lattice_value(depth[p.y * view.width + p.x]) : 0.0;
+    if (kLattice) texels[at.x][y] = texel_at(ivec2(corner.y + at.x, corner.x - view.margin + y));
     const ivec2 visible = ivec2(corner.y + at.x, corner.x + y);
     if (visible.x < view.visible_width && visible.y < view.visible_height) {
       tile[at.x][y] = receivers[visible.y * view.visible_width + visible.x];
@@ -49,7 +71,7 @@ void fill_columns(ivec2 corner) {
   for (int y = at.y; y < kTile; y += 8) {
     const ivec2 p = corner + ivec2(at.x, y);
     if (kLattice && p.x < view.height + 2 * view.margin && p.y < view.width) {
-      lattice[p.y * view.lattice_stride + p.x] = texels[y][at.x];
+      store_texel(p.y * view.lattice_stride + p.x, texels[y][at.x]);
     }
     if (p.x < view.visible_height && p.y < view.visible_width) {
       turned_receivers[p.y * view.visible_height + p.x] = tile[y][at.x];

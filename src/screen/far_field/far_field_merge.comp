@@ -1,0 +1,26 @@
+// Pieces of matter of one level of the pyramid from the level below, beyond the levels that the scan
+// makes: in pairs, for what is joined depends on the order.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define PASS_CONSTANTS int merges, line_stride;
+#include "vulkan/view.glsl"
+
+layout(local_size_x = 32, local_size_y = 8) in;
+
+layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
+layout(binding = 1) buffer Pieces { vec4 pieces[]; };
+
+const bool kFinite = true;
+float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }
+#include "screen/far_field/far_field_pieces.glsl"
+
+void main() {
+  const ivec3 at = ivec3(gl_GlobalInvocationID);
+  // Where the level begins and its strips, the same of the level below.
+  const ivec4 merge = ivec4(quads[view.merges + at.z]);
+  if (at.x >= view.line_stride || at.y >= merge.y) return;
+  const int first = 2 * at.y, second = min(first + 1, merge.w - 1);
+  const vec3 a = pieces[(merge.z + first) * view.line_stride + at.x].xyz;
+  const vec3 b = pieces[(merge.z + second) * view.line_stride + at.x].xyz;
+  pieces[(merge.x + at.y) * view.line_stride + at.x] = vec4(merged(a, b), 0.0);
+}

@@ -440,8 +440,7 @@ class FarFieldProgram {
     const int phases = mode == kNearAlone ? 1 : phases_;
     program_->passes.push_back(
         {.name = "evaluate",
-         .spirv = finite() ? std::span<const std::uint32_t>(shaders::far_field_matter)
-                           : shaders::far_field_evaluate,
+         .spirv = finite() ? shaders::far_field_matter : shaders::far_field_evaluate,
          .constants = {static_cast<std::uint32_t>(rho_.kind),
                        settings_.profile == SlabProfile::kAdaptiveChord,
                        static_cast<std::uint32_t>(sums_), mode, bits(phases_),

@@ -38,6 +38,7 @@ struct FrameShape {
   DepthKind depth_kind = DepthKind::kLinear;
   bool normals = false;  // an image of normals is given; else they come from depth
   NormalUse normal_use = NormalUse::kAuto;
+  bool back_depth = false;  // an image of where the first layer's matter ends is given
   Directions directions = Directions::kNone;
   int frames = 2;  // sets of images that may be in flight, 1 to 8
 };
@@ -51,6 +52,8 @@ struct FrameImages {
   VkImageView visibility = VK_NULL_HANDLE;
   // Visible size, in GENERAL; where FrameShape::directions asks for it.
   VkImageView bent_normal = VK_NULL_HANDLE;
+  // As depth and of its kind; where FrameShape::back_depth says so.
+  VkImageView back_depth = VK_NULL_HANDLE;
 };
 
 // What may change with each frame.

@@ -80,7 +80,10 @@ class FarFieldProgram {
 
   void build() {
     const Geometry g = add_geometry(shape_, true, program_);
-    depth_ = g.depth;
+    depth_ = back_ = g.depth;
+    if (settings_.occluder.kind == OccluderKind::kBackDepth) {
+      back_ = add_back_depth(shape_, program_);
+    }
     normals_ = g.normals;
     rho_start_ = quads_.add_floats(rho_.table);
     tables_ = program_->table_region = program_->add_region(0);
@@ -175,7 +178,7 @@ class FarFieldProgram {
          .spirv = shaders::far_field_fill,
          .constants = {lattice, occluder()},
          .slots = {Slot::of(depth_), Slot::of(receivers), Slot::of(p.lattice), Slot::of(turned),
-                   Slot::of(kappa_), Slot::of(p.back), Slot::of(depth_)},
+                   Slot::of(kappa_), Slot::of(p.back), Slot::of(back_)},
          .width = lattice ? p.stride : p.visible_width,
          .height = lattice ? p.height : p.visible_height,
          .group_x = kTile,
@@ -528,14 +531,14 @@ class FarFieldProgram {
   Quads quads_;
   int rho_start_ = 0;
   bool filled_[2] = {};  // a batch has written the orientation's sums
-  int depth_ = -1, normals_ = -1, tables_ = -1, kappa_ = -1;
+  int depth_ = -1, back_ = -1, normals_ = -1, tables_ = -1, kappa_ = -1;
   int groups_ = -1, accepted_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };
 
 Status check(const FarFieldSettings& s, const FrameShape& shape) {
-  if (s.occluder.kind == OccluderKind::kBackDepth) {
-    return unsupported("on Vulkan the far field's occluder is solid or has a thickness");
+  if (s.occluder.kind == OccluderKind::kBackDepth && !shape.back_depth) {
+    return invalid_argument("the occluder is back-depth, but the shape has no image of it");
   }
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("far-field needs normals; normal_use is none");

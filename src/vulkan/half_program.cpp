@@ -35,6 +35,18 @@ Geometry add_half_geometry(const FrameShape& shape, const Geometry& whole, Progr
        .width = x.size,
        .height = y.size,
        .push = push});
+  if (whole.back >= 0) {
+    half.back = program->add_region(pixels * sizeof(float));
+    program->passes.push_back({.name = "halve",
+                               .spirv = shaders::halve,
+                               .constants = {0},
+                               .slots = {Slot::of(whole.back), Slot::of(whole.back),
+                                         Slot::of(half.back), Slot::of(half.back)},
+                               .width = x.size,
+                               .height = y.size,
+                               .push = push,
+                               .overlaps = true});
+  }
   return half;
 }
 
@@ -73,7 +85,8 @@ Status make_half_program(const FrameShape& shape, const MakeProgram& make, Progr
   const bool normals = shape.normal_use != NormalUse::kNone;
   const bool directions = shape.directions != Directions::kNone;
   const auto visible = static_cast<VkDeviceSize>(visible_width(half)) * visible_height(half);
-  const Geometry whole = add_geometry(shape, normals, program);
+  Geometry whole = add_geometry(shape, normals, program);
+  if (shape.back_depth) whole.back = add_back_depth(shape, program);
   program->geometry = add_half_geometry(shape, whole, program);
   HalfResults results;
   results.visibility = program->add_region(visible * sizeof(float));

@@ -13,7 +13,14 @@ namespace obscura::vulkan {
 // What a pass reads or writes at one binding: an image of the frame, or a region of the scratch
 // memory by its number.
 struct Slot {
-  enum Kind { kRegion, kDepthImage, kNormalImage, kVisibilityImage, kBentNormalImage };
+  enum Kind {
+    kRegion,
+    kDepthImage,
+    kBackDepthImage,
+    kNormalImage,
+    kVisibilityImage,
+    kBentNormalImage
+  };
   Kind kind = kRegion;
   int region = 0;
 
@@ -47,6 +54,7 @@ struct Pass {
 // The passes that every method begins with: linear depth, then normals where they are wanted.
 struct Geometry {
   int depth = -1, normals = -1;  // regions; normals -1: none
+  int back = -1;                 // see add_back_depth
 };
 
 // A method as passes over regions of scratch memory, one after the other. Passes whose shader,
@@ -81,6 +89,9 @@ inline int visible_height(const FrameShape& s) {
 
 // Adds the passes of the geometry, or gives the program's own.
 Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
+
+// Adds where matter ends, linear depth (FrameShape::back_depth), or gives the program's own region.
+int add_back_depth(const FrameShape& shape, Program* program);
 
 // In <method>_program.cpp.
 Status make_program(const AreaSettings& settings, const FrameShape& shape, Program* program);

@@ -125,9 +125,12 @@ class Recorder::Impl {
     }
     if (!scratch_.buffer) return invalid_argument("scratch memory must be bound before images");
     if (!images.depth || !images.visibility || (shape_.normals && !images.normals) ||
-        (shape_.directions != Directions::kNone && !images.bent_normal)) {
+        (shape_.directions != Directions::kNone && !images.bent_normal) ||
+        (shape_.back_depth && !images.back_depth)) {
       return invalid_argument(
-          "depth, visibility and, if the shape says so, normals and bent_normal must be given");
+          "depth, visibility and, if the shape says so, normals, bent_normal and back_depth must "
+          "be "
+          "given");
     }
     for (const Binding& binding : bindings_) {
       for (std::size_t b = 0; b < binding.slots.size(); ++b) {
@@ -343,6 +346,8 @@ class Recorder::Impl {
     switch (slot.kind) {
       case Slot::kNormalImage:
         return images.normals;
+      case Slot::kBackDepthImage:
+        return images.back_depth;
       case Slot::kVisibilityImage:
         return images.visibility;
       case Slot::kBentNormalImage:

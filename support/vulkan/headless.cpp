@@ -150,6 +150,7 @@ class HeadlessVulkan::Impl {
                                    .depth_kind = field.depth_kind,
                                    .normals = !field.normals.empty(),
                                    .normal_use = field.normal_use,
+                                   .back_depth = !field.back_depth.empty(),
                                    .directions = !directions ? vulkan::Directions::kNone
                                                  : frame.output == VulkanFormat::kR8
                                                      ? vulkan::Directions::kUnsigned
@@ -165,7 +166,7 @@ class HeadlessVulkan::Impl {
     if (recorder.pass_names().size() >= kQueries) return unsupported("too many passes to time");
     Resources r(*this);
     Buffer scratch;
-    Input depth, normals;
+    Input depth, normals, back_depth;
     Output visibility, bent_normal;
     const bool ok =
         r.buffer(recorder.scratch_bytes(),
@@ -173,15 +174,20 @@ class HeadlessVulkan::Impl {
                  &scratch) &&
         r.input(shape.width, shape.height,
                 frame.depth_buffer ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, &depth) &&
+        (!shape.back_depth ||
+         r.input(shape.width, shape.height, VK_FORMAT_R32_SFLOAT, &back_depth)) &&
         (!shape.normals ||
          r.input(shape.width, shape.height, VK_FORMAT_R32G32B32A32_SFLOAT, &normals)) &&
         r.output(width, height, frame.output, 1, &visibility) &&
         (!directions || r.output(width, height, frame.output, 4, &bent_normal));
     if (!ok) return {StatusCode::kOutOfMemory, "out of memory on the Vulkan device"};
-    fill(field, shape.normals, depth.upload, normals.upload);
+    fill(field.depth, depth.upload);
+    if (shape.normals) fill(field.normals, normals.upload);
+    if (shape.back_depth) fill(field.back_depth, back_depth.upload);
     recorder.bind_scratch({scratch.buffer, 0});
-    if (Status s = recorder.bind_images(0, {depth.picture.view, normals.picture.view,
-                                            visibility.picture.view, bent_normal.picture.view});
+    if (Status s = recorder.bind_images(
+            0, {depth.picture.view, normals.picture.view, visibility.picture.view,
+                bent_normal.picture.view, back_depth.picture.view});
         !s.ok()) {
       return s;
     }
@@ -189,6 +195,7 @@ class HeadlessVulkan::Impl {
       begin();
       upload(depth);
       if (shape.normals) upload(normals);
+      if (shape.back_depth) upload(back_depth);
       make_writable(visibility);
       if (directions) make_writable(bent_normal);
       recorder.record_tables(commands_);
@@ -451,18 +458,18 @@ class HeadlessVulkan::Impl {
     return false;
   }
 
-  static void fill(const DepthField& field, bool with_normals, const Buffer& depth,
-                   const Buffer& normals) {
-    auto* d = static_cast<float*>(depth.mapped);
-    auto* n = static_cast<float*>(normals.mapped);
-    for (int y = 0; y < field.depth.height; ++y) {
-      for (int x = 0; x < field.depth.width; ++x) {
-        *d++ = field.depth(x, y);
-        if (!with_normals) continue;
-        for (const auto* view : {&field.normals.x, &field.normals.y, &field.normals.z}) {
-          *n++ = (*view)(x, y);
-        }
-        *n++ = 0;
+  static void fill(const ImageView<const float>& image, const Buffer& to) {
+    auto* out = static_cast<float*>(to.mapped);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) *out++ = image(x, y);
+    }
+  }
+  static void fill(const VectorView<const float>& image, const Buffer& to) {
+    auto* out = static_cast<float*>(to.mapped);
+    for (int y = 0; y < image.x.height; ++y) {
+      for (int x = 0; x < image.x.width; ++x) {
+        for (const auto* view : {&image.x, &image.y, &image.z}) *out++ = (*view)(x, y);
+        *out++ = 0;
       }
     }
   }

@@ -112,6 +112,35 @@ TEST_F(VulkanFarField, MatterOfAThicknessAgrees) {
   }
 }
 
+// Backs of every sort: before their fronts, behind, and none.
+TEST_F(VulkanFarField, BackDepthAgrees) {
+  for (DepthKind kind : {DepthKind::kLinear, DepthKind::kNdcReversed}) {
+    synthetic::Input in = synthetic::blocks(75, 56, Camera::perspective(1, 75, 56), 4);
+    in.guard_band = GuardBand::symmetric(2, 1);
+    std::vector<float> back(in.depth.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      back[i] = in.depth[i] + 0.1f * static_cast<float>(i % 7) - 0.05f;
+      if (i % 11 == 0) back[i] = std::numeric_limits<float>::infinity();
+    }
+    if (kind == DepthKind::kNdcReversed) {
+      for (std::vector<float>* image : {&in.depth, &back}) {
+        for (float& d : *image) d = 0.1f / d;
+      }
+    }
+    DepthField field = in.field();
+    field.depth_kind = kind;
+    field.near_plane = 0.1f;
+    field.far_plane = std::numeric_limits<float>::infinity();
+    field.back_depth = {back.data(), 75, 56};
+    for (Resolution resolution : {Resolution::kFull, Resolution::kHalf}) {
+      FarFieldSettings s = far_field(1);
+      s.occluder = Occluder::back_depth();
+      s.resolution = resolution;
+      expect_same(field, s, "kind " + std::to_string(int(kind)), true);
+    }
+  }
+}
+
 FarFieldSettings shared_work(bool separable, bool blur, int line_step) {
   FarFieldSettings s = far_field(1);
   s.directions = separable ? 18 : 8;
@@ -175,6 +204,9 @@ TEST_F(VulkanFarField, WhatCannotRunIsRefused) {
   DepthField field = in.field();
   field.normal_use = NormalUse::kNone;
   EXPECT_FALSE(vulkan_->run(field, far_field(1), {.visibility = view}).ok());
+  s = far_field(1);
+  s.occluder = Occluder::back_depth();
+  EXPECT_FALSE(vulkan_->run(in.field(), s, {.visibility = view}).ok());
 }
 
 }  // namespace

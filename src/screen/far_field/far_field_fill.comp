@@ -30,7 +30,7 @@ const float kFarBack = 1e12;  // matter without end, finite so that arithmetic i
 // Where a texel's matter ends; 0 on the background. Finite thickness is along the view ray.
 float back_of(ivec2 p, float d) {
   if (kOccluder == 0 || !(d < kInf)) return 0.0;
-  if (kOccluder == 2) return min(given_backs[p.y * view.width + p.x], kFarBack);
+  if (kOccluder == 2) return min(max(given_backs[p.y * view.width + p.x], d), kFarBack);
   const vec2 a = (vec2(p) - (vec2(view.center_u, view.center_v) - 0.5)) *
                  vec2(view.scale_x, view.scale_y);
   const float ray = view.orthographic != 0 ? 1.0 : sqrt(1.0 + dot(a, a));

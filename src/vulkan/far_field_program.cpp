@@ -244,7 +244,8 @@ class FarFieldProgram {
     return start;
   }
 
-  // Two quads per row, phase and segment: taps and their number, intervals and theirs; slopes.
+  // Two quads per row, cell, place between scanned lines and segment: taps and their number,
+  // intervals and theirs; slopes.
   void add_reads(const PlaneShape& p, const Direction& d, const StripLevels& levels,
                  int direction_quad, std::vector<int>* restarts) {
     const LineLayout layout(p.width, p.height, d, settings_.line_step);
@@ -253,23 +254,22 @@ class FarFieldProgram {
       taps.emplace_back();
       for (const Segment& s : segments) taps.back().push_back(add_taps(p, d, s));
     }
-    const int headers = quads_.size(), phases = phases_;
+    const int headers = quads_.size(), cells = static_cast<int>(d.segments.size());
     quads_.set(direction_quad + 1, 1, headers);
-    const int count = p.visible_height * phases * settings_.segments;
+    const int count = p.visible_height * cells * settings_.line_step * settings_.segments;
     for (int i = 0; i < 2 * count; ++i) quads_.add(0, 0, 0, 0);
     int header = headers;
     for (int y = 0; y < p.visible_height; ++y) {
       const int v = y + p.top, row = d.sign > 0 ? v : p.height - 1 - v;
       const int near = far_field::near_rows(d, settings_.interval, row, p.height);
-      for (int phase = 0; phase < phases; ++phase) {
-        const int cell = far_field::cell_of(d, y, phase);
-        const std::vector<Segment>& segments = d.segments_of(cell);
+      for (int k = 0; k < cells * settings_.line_step; ++k) {
+        const int cell = k / settings_.line_step, u = p.left + k % settings_.line_step;
+        const std::vector<Segment>& segments = d.segments[cell];
         for (std::size_t s = 0; s < segments.size(); ++s, header += 2) {
           const Segment& segment = segments[s];
           const int start = quads_.size();
-          const int found =
-              add_intervals(d, segment, layout, levels, row, phase + p.left, restarts);
-          quads_.set(header, 0, taps[d.segments.size() == 1 ? 0 : cell][s]);
+          const int found = add_intervals(d, segment, layout, levels, row, u, restarts);
+          quads_.set(header, 0, taps[cell][s]);
           quads_.set(header, 1, far_field::count_taps(segment, row, near, p.height) | found << 16);
           quads_.set(header, 2, start);
           quads_.set(header + 1, 0, std::bit_cast<int>(segment.low));
@@ -447,7 +447,7 @@ class FarFieldProgram {
          .constants = {static_cast<std::uint32_t>(rho_.kind),
                        settings_.profile == SlabProfile::kAdaptiveChord,
                        static_cast<std::uint32_t>(sums_), mode, bits(phases_),
-                       bits(settings_.line_step), bits(settings_.segments)},
+                       bits(settings_.line_step), bits(settings_.segments), settings_.jitter},
          .slots = {Slot::of(tables_), Slot::of(kappa_), Slot::of(p.lattice), Slot::of(receivers),
                    Slot::of(sums), Slot::of(finite() ? p.back : line_sums_),
                    Slot::of(finite() ? raw_ : counts_)},

@@ -184,6 +184,37 @@ TEST_F(VulkanFarField, SharedWorkAgreesForParallelViews) {
   expect_same(in.field(), s, "separable");
 }
 
+// What a temporal filter lives on: frames in which each pixel is each cell of 3x3 once know
+// together more than one.
+TEST_F(VulkanFarField, FramesMoveWhoDoesWhat) {
+  const int w = 60, h = 46;
+  const std::size_t pixels = std::size_t{60} * 46;
+  const synthetic::Input in = synthetic::blocks(w, h, Camera::perspective(1, w, h), 7);
+  for (bool separable : {false, true}) {
+    FarFieldSettings s = shared_work(separable, false, 1), whole = s;
+    s.near_field = whole.near_field = false;
+    whole.separable = 1;
+    whole.jitter = false;
+    if (!separable) whole.segments = 8;
+    std::vector<float> converged(pixels), v(pixels), mean(pixels, 0.0f);
+    ASSERT_TRUE(compute(in.field(), whole, {.visibility = {converged.data(), w, h}}).ok());
+    auto error = [&](const std::vector<float>& a) {
+      double sum = 0;
+      for (std::size_t i = 0; i < pixels; ++i) sum += std::abs(a[i] - converged[i]);
+      return sum / pixels;
+    };
+    double single = 0;
+    for (std::uint32_t frame : {0, 1, 2, 4, 5, 6, 8, 9, 10}) {
+      const Status status = vulkan_->run(in.field(), s, {.visibility = {v.data(), w, h}}, nullptr,
+                                         {.frame_index = frame});
+      ASSERT_TRUE(status.ok()) << status.message();
+      single += error(v) / 9;
+      for (std::size_t i = 0; i < pixels; ++i) mean[i] += v[i] / 9;
+    }
+    EXPECT_LT(error(mean), 0.8 * single) << separable;
+  }
+}
+
 // More scanned lines than one batch of directions holds, and more lines than one group sums.
 TEST_F(VulkanFarField, ManyBatchesAgree) {
   const synthetic::Input in = synthetic::blocks(600, 400, Camera::perspective(1, 600, 400), 9);

@@ -21,6 +21,7 @@ layout(constant_id = 3) const int kMode = 0;    // 0 whole; section 10: 1 near f
 layout(constant_id = 4) const int kPhases = 1;  // of a row's receivers
 layout(constant_id = 5) const int kLineStep = 1;
 layout(constant_id = 6) const int kSegments = 2;
+layout(constant_id = 7) const bool kJitter = false;
 
 layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
 layout(binding = 1) readonly buffer Kappa { float kappa[]; };
@@ -68,9 +69,9 @@ struct Place {
 void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place,
                     inout Totals totals);
 
-// Which of 3x3 cells a pixel is, the image's way.
+// Which of 3x3 cells a pixel is in this frame, the image's way.
 int cell_of(ivec2 p) {
-  const ivec2 image = turned(p) % 3;
+  const ivec2 image = pattern_place(turned(p)) % 3;
   return 3 * image.y + image.x;
 }
 
@@ -87,14 +88,17 @@ void main() {
   const float g = kMode == kFarAlone ? lattice_value(given.w) : lattice[texel];
   const Receiver r = receiver_at(p, g, given.xyz);
   Totals totals = Totals(0.0, 0.0, vec3(0.0));
+  const int cell = cell_of(p);
+  // Receivers of a row and a cell that stand alike between scanned lines read alike.
+  const int alike = ((kJitter ? 9 * p.y + cell : p.y) * kLineStep + p.x % kLineStep) * kSegments;
   for (int i = 0; r.surface && i < view.direction_count; ++i) {
     const Direction d = direction_at(i);
-    if (kMode == kFarAlone && d.group != cell_of(p)) continue;
+    if (kMode == kFarAlone && d.group != cell) continue;
     const Place place =
-        Place(texel, d.sign_v * view.lattice_stride, p.x / kPhases * kLinePhases,
+        Place(texel, d.sign_v * view.lattice_stride, p.x / kLineStep,
               -float(d.sign_v) * (float(at.y) - plane_center().y));
     for (int segment = 0; segment < kSegments; ++segment) {
-      const Reads reads = reads_at(d.headers + 2 * ((p.y * kPhases + phase) * kSegments + segment));
+      const Reads reads = reads_at(d.headers + 2 * (alike + segment));
       evaluate_slice(r, make_part(r, float(d.sign_v), reads.slopes), reads, d, place, totals);
     }
   }

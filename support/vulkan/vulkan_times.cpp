@@ -65,6 +65,8 @@ std::vector<Row> volumetric_rows() {
   horizon.variant = HorizonVariant::kClassic;
   HemisphereSettings hemisphere;
   hemisphere.samples = 16;
+  HorizonSettings half;
+  half.resolution = Resolution::kHalf;
   PointSettings screen = samples<PointSettings>(16, true);
   screen.pattern = PointPattern::kScreen;
   return {{"5 lines", samples<LineSettings>(5, false), false, 0.71, kQuadro},
@@ -77,6 +79,7 @@ std::vector<Row> volumetric_rows() {
           {"horizon, classic, 8 x 8", horizon, false, 60.55, kQuadro},
           {"horizon, classic, 8 x 8, with directions", horizon, true},
           {"horizon, slices, 8 x 8", HorizonSettings{}},
+          {"horizon, slices, 8 x 8, half resolution", half},
           {"Crytek2D, 16 samples", screen},
           {"Crytek2D, 16 samples, with directions", screen, true},
           {"Crytek3D, 16 samples, 3 steps", hemisphere},

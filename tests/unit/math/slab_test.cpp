@@ -266,6 +266,25 @@ TEST(Slice, SharesOfThePointsWeighPiecesAndMoveTheHorizon) {
   }
 }
 
+// Every point of a plane is on its horizon: what stands on the plane begins at its last point, on
+// whichever side of the plane rounding has put that.
+TEST(Slice, RoundingDoesNotDecideWhatStandsOnAPlane) {
+  const math::Rho rho = rho_of({.kind = FalloffKind::kInverseSquare, .radius = 1});
+  for (const float side : {-1.0f, 1.0f}) {
+    SliceCase c{.nz = 0.6f, .nt = 0.8f};
+    for (int i = 1; i <= 4; ++i) {
+      c.points.push_back({1.0f * i, -4.0f / 3 * i * (1 + (i % 2 ? side : -side) * 1e-6f)});
+    }
+    c.points.push_back({6, -6});
+    SliceCase exact = c;
+    for (int i = 0; i < 4; ++i) exact.points[i].y = -4.0f / 3 * exact.points[i].x;
+    EXPECT_NEAR(evaluate_slice(rho, c).sum, evaluate_slice(rho, exact).sum, 1e-4) << side;
+    // As from the last point of the plane to the first one above it.
+    const SliceCase two{.nz = c.nz, .nt = c.nt, .points = {c.points[3], c.points[4]}};
+    EXPECT_NEAR(evaluate_slice(rho, c).sum, evaluate_slice(rho, two).sum, 1e-4) << side;
+  }
+}
+
 TEST(Slice, PointsThatAreNotThereChangeNothing) {
   const math::Rho rho = rho_of({.kind = FalloffKind::kExponential, .radius = 2});
   SliceCase c{.nz = 0.8f, .nt = 0.6f, .points = {{1, 0.1f}, {2, 1}}};

@@ -25,6 +25,7 @@ struct Table {
 };
 
 constexpr const char* kRadeon = "Radeon 7970";
+constexpr const char* kGeForce = "GeForce GTX 560 Ti";
 constexpr const char* kQuadro = "Quadro FX 4800";
 
 FarFieldSettings far_field(int directions, bool near_field, int separable) {
@@ -41,7 +42,7 @@ std::vector<Row> far_field_rows(bool large) {
   FarFieldSettings balanced;
   balanced.preset = FarFieldPreset::kBalanced;
   MipmapSettings mipmap;
-  return {
+  std::vector<Row> rows = {
       {"far field alone, K = 8x2", far_field(8, false, 1), false, large ? 16.7 : 7.26, kRadeon},
       {"far field alone, K = 16x2", far_field(16, false, 1), false, large ? 31.6 : 13.3, kRadeon},
       {"far field alone, K = 18x2, separable, blurred", far_field(18, false, 3), false,
@@ -50,6 +51,13 @@ std::vector<Row> far_field_rows(bool large) {
       {"balanced", balanced},
       {"balanced, with directions", balanced, true},
       {"mipmap, K = 16", mipmap, false, large ? 31.5 : 19.2, kRadeon}};
+  for (const auto& [interval, ms] : {std::pair{20, 6.06}, {5, 8.89}}) {
+    FarFieldSettings s = far_field(8, false, 1);
+    s.interval = interval;
+    const std::string name = fmt::format("far field alone, K = 8x2, B0 = {}", interval);
+    if (!large) rows.push_back({name, s, false, ms, kRadeon});
+  }
+  return rows;
 }
 
 template <class Settings>
@@ -89,7 +97,12 @@ std::vector<Row> volumetric_rows() {
 std::vector<Table> tables() {
   return {{"meadow", {1280, 720}, 0.04f, far_field_rows(false)},
           {"meadow", {1920, 1080}, 0.04f, far_field_rows(true)},
-          {"cornell", {1024, 1024}, 0.05f, volumetric_rows()}};
+          {"cornell", {1024, 1024}, 0.05f, volumetric_rows()},
+          {"hall",
+           {2048, 1024},
+           0.05f,
+           {{"Crytek3D, 8 samples, 3 steps, with directions", HemisphereSettings{}, true, 4.2 + 4.7,
+             kGeForce}}}};
 }
 
 struct Device {

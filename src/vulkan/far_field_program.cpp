@@ -63,6 +63,7 @@ struct Batch {
   int rows_table = 0;  // of strips to sum
   int raw_rows = 0, sum_rows = 0, lines = 0, strips = 0;
   std::vector<int> merges{};  // tables, a level each
+  VkDeviceSize table_bytes = 0;
 };
 
 class FarFieldProgram {
@@ -137,6 +138,12 @@ class FarFieldProgram {
     return finite() ? levels.all() : levels.start[std::min(levels.levels(), kSharedLevels)];
   }
   int sum_rows(const StripLevels& levels) const { return finite() ? 0 : levels.all(); }
+  VkDeviceSize sum_bytes(const Batch& b) const {
+    return VkDeviceSize{12} * b.sum_rows * sum_stride(b);
+  }
+  VkDeviceSize lattice_bytes(const PlaneShape& p) const {
+    return VkDeviceSize{finite() ? 8u : 4u} * p.stride * p.height;
+  }
   std::uint32_t slope() const { return bits(settings_.receiver_slope < 0 ? 1.0f : -1.0f); }
 
   void add_range() {
@@ -217,8 +224,7 @@ class FarFieldProgram {
       larger.sum_rows += sum_rows(levels);
       larger.lines = std::max(larger.lines, lines);
       larger.strips = std::max(larger.strips, levels.strips(0));
-      const VkDeviceSize bytes =
-          raw_bytes(larger) + VkDeviceSize{12} * larger.sum_rows * sum_stride(larger);
+      const VkDeviceSize bytes = raw_bytes(larger) + sum_bytes(larger);
       if (!batch.directions.empty() && bytes > kBatchBytes) {
         flush();
         batch.directions.push_back(&d);
@@ -341,6 +347,7 @@ class FarFieldProgram {
     if (finite()) add_merges(&b);
     b.rows_table = quads_.size();
     for (const auto& s : strips) quads_.add(s[0], s[1], s[2], s[3]);
+    b.table_bytes = VkDeviceSize{16} * (quads_.size() - b.table);
   }
 
   // Per level beyond the scan's, for each direction: its first strip and their number, and the same
@@ -393,7 +400,8 @@ class FarFieldProgram {
                                 .group_x = 32,
                                 .group_y = 8,
                                 .push = {p.transposed, bits(p.stride), bits(margin_), bits(b.table),
-                                         bits(b.lines), bits(settings_.line_step), slope()}});
+                                         bits(b.lines), bits(settings_.line_step), slope()},
+                                .bytes = lattice_bytes(p) + raw_bytes(b)});
   }
 
   void add_merge(const Batch& b) {
@@ -420,7 +428,8 @@ class FarFieldProgram {
          .width = b.sum_rows,
          .group_x = 1,
          .push = {bits(b.rows_table), bits(b.lines), bits(sum_stride(b)), bits(line_phases()),
-                  slope()}});
+                  slope()},
+         .bytes = raw_bytes(b) + sum_bytes(b)});
   }
 
   // Of far_field_evaluate.comp.
@@ -429,18 +438,30 @@ class FarFieldProgram {
   void add_evaluation(const Batch& b) {
     const PlaneShape& p = *b.plane;
     if (separable()) {
-      add_evaluation(b, kNearAlone, p.receivers, p.sums);
+      // Without a near field the first batch makes the sums zero.
+      const bool near = settings_.near_field || !filled_[p.transposed];
+      if (near) add_evaluation(b, kNearAlone, p.receivers, p.sums);
       add_evaluation(b, kFarAlone, p.averaged, p.far_sums);
-      program_->passes.back().overlaps = true;
+      program_->passes.back().overlaps = near;
     } else {
       add_evaluation(b, kWhole, p.receivers, p.sums);
     }
     filled_[p.transposed] = true;
   }
 
+  // Lines, lattice, receivers and sums, which are read where an earlier batch has begun them.
+  VkDeviceSize evaluation_bytes(const Batch& b, Mode mode) const {
+    const VkDeviceSize lines = finite() ? raw_bytes(b) : sum_bytes(b);
+    const VkDeviceSize sums = 4 * channels() * (filled_[b.plane->transposed] ? 2 : 1);
+    return (mode == kNearAlone ? 0 : lines) + b.table_bytes + lattice_bytes(*b.plane) +
+           visible_pixels() * (16 + sums);
+  }
+
   void add_evaluation(const Batch& b, Mode mode, int receivers, int sums) {
     const PlaneShape& p = *b.plane;
     const int phases = mode == kNearAlone ? 1 : phases_;
+    const int directions =
+        mode == kNearAlone && !settings_.near_field ? 0 : static_cast<int>(b.directions.size());
     program_->passes.push_back(
         {.name = "evaluate",
          .spirv = finite() ? shaders::far_field_matter : shaders::far_field_evaluate,
@@ -458,8 +479,9 @@ class FarFieldProgram {
          .group_y = 4,
          .push = {bits(rho_.radius), bits(rho_.inverse_radius), bits(rho_.entries_per_length),
                   bits(rho_.last_entry), bits(rho_start_), p.transposed, bits(p.stride),
-                  bits(margin_), bits(b.table), bits(static_cast<int>(b.directions.size())),
-                  bits(finite() ? b.lines : sum_stride(b)), filled_[p.transposed], slope()}});
+                  bits(margin_), bits(b.table), bits(directions),
+                  bits(finite() ? b.lines : sum_stride(b)), filled_[p.transposed], slope()},
+         .bytes = evaluation_bytes(b, mode)});
   }
 
   // What passes that may be the last have in common.

@@ -182,6 +182,8 @@ TEST_F(VulkanFarField, SharedWorkAgreesForParallelViews) {
   s.directions = 9;
   s.separable = 3;
   expect_same(in.field(), s, "separable");
+  s.near_field = false;
+  expect_same(in.field(), s, "separable, far field alone");
 }
 
 // What a temporal filter lives on: frames in which each pixel is each cell of 3x3 once know

@@ -42,6 +42,7 @@ vec3 sum_between(int row, int shift, int first, int last) {
 
 void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
                    inout Horizon h) {
+  const float rows_per_outward = 1.0 / plane_scale().y;
   for (int k = 0; k < reads.interval_count; ++k) {
     const uvec4 interval = quads[reads.intervals + k];
     const int row = (d.row_base + int(interval.x & 0xffffff)) * view.sum_stride;
@@ -51,7 +52,7 @@ void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
     const float inverse = 1.0 / max(sum.z, 1.0);
     const float q = inverse * sum.x;
     const float rows =
-        inverse * sum.y / plane_scale().y + place.axis * (view.orthographic != 0 ? 1.0 : q);
+        inverse * sum.y * rows_per_outward + place.axis * (view.orthographic != 0 ? 1.0 : q);
     add_part(part.slice, point_in(r, part, q, rows), sum.z > 0.0,
              sum.z * uintBitsToFloat(interval.w), h);
   }

@@ -34,7 +34,7 @@ constexpr int kTile = 32;         // of far_field_fill.comp and far_field_collec
 constexpr int kLeastRestart = 5;  // sums restart every 32 lines or more
 constexpr int kSharedLevels = 4;  // of the pyramid, that the scan makes in shared memory
 // Scanned lines of one batch of directions; beyond this a batch has one direction.
-constexpr VkDeviceSize kBatchBytes = VkDeviceSize{32} << 20;
+constexpr VkDeviceSize kBatchBytes = VkDeviceSize{64} << 20;
 
 // The depth image in one orientation.
 struct PlaneShape {

@@ -1,14 +1,14 @@
 #include "bench/bench_input.h"
 
 #include "fmt/format.h"
-#include "support/scenes/load_scene.h"
+#include "scene/scenes/load_scene.h"
 
 namespace obscura::bench {
 
-support::DepthInput bench_input(int width, int height) {
-  support::DepthInput input;
+tools::DepthInput bench_input(int width, int height) {
+  tools::DepthInput input;
   const Status status =
-      support::load_scene(fmt::format("scene:hall?size={}x{}&guard-band=0", width, height), &input);
+      tools::load_scene(fmt::format("scene:hall?size={}x{}&guard-band=0", width, height), &input);
   if (!status.ok()) fmt::print(stderr, "{}\n", status.message());
   return input;
 }

@@ -1,12 +1,12 @@
 #ifndef OBSCURA_BENCH_BENCH_INPUT_H_
 #define OBSCURA_BENCH_BENCH_INPUT_H_
 
-#include "support/depth_input.h"
+#include "io/images/depth_input.h"
 
 namespace obscura::bench {
 
 // What the screen-space methods are timed on, without a guard band.
-support::DepthInput bench_input(int width, int height);
+tools::DepthInput bench_input(int width, int height);
 
 }  // namespace obscura::bench
 

@@ -14,9 +14,9 @@ namespace obscura::bench {
 namespace {
 
 // The bench's scene with 10 % of it as guard band.
-support::DepthInput guarded(int width, int height) {
+tools::DepthInput guarded(int width, int height) {
   const GuardBand guard = GuardBand::symmetric(width / 10, height / 10);
-  support::DepthInput input = bench_input(width + 2 * guard.left, height + 2 * guard.top);
+  tools::DepthInput input = bench_input(width + 2 * guard.left, height + 2 * guard.top);
   input.guard_band = guard;
   return input;
 }
@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 // Whole estimator: K = 8x2 with or without the near field.
 void far_field_run(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
-  const support::DepthInput input = guarded(width, height);
+  const tools::DepthInput input = guarded(width, height);
   FarFieldSettings settings;
   settings.directions = 8;
   settings.near_field = state.range(1) != 0;
@@ -73,7 +73,7 @@ BENCHMARK(far_field_run)
 // The default K = 16x2 alone, and with the direction from the same slices beside it, in turns.
 void far_field_direction(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
-  const support::DepthInput input = guarded(width, height);
+  const tools::DepthInput input = guarded(width, height);
   FarFieldSettings settings;
   settings.falloff.radius = 1;
   Estimator estimator;
@@ -112,7 +112,7 @@ BENCHMARK(far_field_direction)
 // The first two passes, and the bytes of intermediate data.
 void far_field_scan(benchmark::State& state) {
   const int width = 1280, height = 720, interval = 10;
-  const support::DepthInput input = guarded(width, height);
+  const tools::DepthInput input = guarded(width, height);
   const auto executor = make_executor(static_cast<int>(state.range(0)));
   view::Geometry geometry;
   if (!view::convert(input.field(), {.normals = true, .works_without_normals = true}, *executor,

@@ -13,7 +13,7 @@ namespace {
 // Whole estimator, with and without the blur; every value is checked before it is timed.
 void horizon_run(benchmark::State& state) {
   const int width = 1280, height = 720;
-  const support::DepthInput input = bench_input(width, height);
+  const tools::DepthInput input = bench_input(width, height);
   HorizonSettings settings;
   settings.variant = state.range(0) ? HorizonVariant::kClassic : HorizonVariant::kSlices;
   settings.falloff.kind = state.range(1) ? FalloffKind::kConstant : FalloffKind::kExponential;

@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "core/progress.h"
-#include "screen/reference/reference.h"
-#include "support/scenes/load_scene.h"
+#include "scene/scenes/load_scene.h"
+#include "screen/reference/plan.h"
 
 namespace obscura::bench {
 namespace {
 
 struct Setup {
-  support::DepthInput input;
+  tools::DepthInput input;
   view::Geometry geometry;
   std::unique_ptr<Method> method;
   std::unique_ptr<Executor> executor;
@@ -25,7 +25,7 @@ struct Setup {
 std::unique_ptr<Setup> make_setup(const ReferenceSettings& settings, const char* scene,
                                   int threads) {
   auto s = std::make_unique<Setup>();
-  if (!support::load_scene(scene, &s->input).ok()) return nullptr;
+  if (!tools::load_scene(scene, &s->input).ok()) return nullptr;
   s->executor = make_executor(threads);
   if (!make_reference(settings, &s->method).ok()) return nullptr;
   const DepthField field = s->input.field();

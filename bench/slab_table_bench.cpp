@@ -23,7 +23,7 @@ double dot(const Point& a, const Point& b) {
   return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
 }
 
-Point point_at(const support::DepthInput& in, int x, int y) {
+Point point_at(const tools::DepthInput& in, int x, int y) {
   const double depth = in.depth[static_cast<std::size_t>(y) * in.width + x];
   return {{(x + 0.5 - in.camera.center_u) * in.camera.scale_x * depth,
            (in.camera.center_v - y - 0.5) * in.camera.scale_y * depth, -depth}};
@@ -31,7 +31,7 @@ Point point_at(const support::DepthInput& in, int x, int y) {
 
 // Slices of random receivers in equally many directions, with samples ever farther out, as many
 // as the far field reads.
-SliceSet slices_of(const support::DepthInput& in) {
+SliceSet slices_of(const tools::DepthInput& in) {
   SliceSet set;
   set.count = kReceivers * kSlices;
   set.points = kPoints;
@@ -110,7 +110,7 @@ double error_of(const std::vector<float>& found, const std::vector<double>& trut
 // size: of the tables, 0: quadrature.
 void slab_integral(benchmark::State& state) {
   const int size = static_cast<int>(state.range(0));
-  const support::DepthInput input = bench_input(640, 360);
+  const tools::DepthInput input = bench_input(640, 360);
   math::Rho rho;
   if (input.depth.empty() || !math::make_rho({.radius = 2.7f}, &rho).ok()) {
     return state.SkipWithError("no input");

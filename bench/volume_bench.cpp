@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "io/volumes/vdb.h"
 #include "obscura/volume.h"
-#include "support/volume/vdb.h"
-#include "support/volume/vdb_distance.h"
+#include "reproduce/vdb_distance.h"
 #include "tests/reference/volume_loops.h"
 #include "volume/distance_kernel.h"
 #include "volume/distance_start.h"
@@ -165,7 +165,7 @@ BENCHMARK(distance)
 
 // OpenVDB's fogToSdf on the same voxels, beside our eight sweeps with their start.
 void fog_to_sdf(benchmark::State& state) {
-  if (!support::has_openvdb()) return state.SkipWithError("this build has no OpenVDB");
+  if (!tools::has_openvdb()) return state.SkipWithError("this build has no OpenVDB");
   const int n = static_cast<int>(state.range(0));
   Gyroid g(n);
   // Closed at the border, which counts as a surface to OpenVDB where matter reaches it.
@@ -187,7 +187,7 @@ void fog_to_sdf(benchmark::State& state) {
   report(state, own, g.voxels(), 0);
   double seconds = 0;
   for (auto _ : state) {
-    if (!support::openvdb_distance(g.view(), 0, threads, g.grid(), &seconds).ok()) {
+    if (!tools::openvdb_distance(g.view(), 0, threads, g.grid(), &seconds).ok()) {
       return state.SkipWithError("OpenVDB refused");
     }
     state.SetIterationTime(seconds);

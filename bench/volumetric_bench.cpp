@@ -8,10 +8,10 @@
 
 #include "bench/bench_input.h"
 #include "bench/tap_bound.h"
-#include "screen/area/area.h"
-#include "screen/area/moments.h"
-#include "screen/line/line.h"
-#include "screen/point/point.h"
+#include "screen/volumetric/area/moments.h"
+#include "screen/volumetric/area/plan.h"
+#include "screen/volumetric/line/plan.h"
+#include "screen/volumetric/point/plan.h"
 #include "tests/reference/volumetric.h"
 
 namespace obscura::bench {
@@ -21,7 +21,7 @@ namespace {
 constexpr double kRadiusOfScene = 0.025;
 
 struct Setup {
-  support::DepthInput input;
+  tools::DepthInput input;
   view::Geometry geometry;
   std::unique_ptr<Executor> executor;
   std::vector<float> result;

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "support/files/files.h"
+#include "io/images/files.h"
 
 namespace {
 
@@ -148,8 +148,8 @@ void barrier(const Gpu& gpu, VkImage image, VkImageLayout from, VkImageLayout to
 
 int main(int argc, char** argv) {
   require(argc == 3, "usage: example_vulkan_headless DEPTH VISIBILITY");
-  obscura::support::Image picture;
-  require(obscura::support::read_image(argv[1], &picture));
+  obscura::tools::Image picture;
+  require(obscura::tools::read_image(argv[1], &picture));
   const int width = picture.width, height = picture.height;
   std::vector<float>& pixels = picture.channels[0].values;
   const Gpu gpu = make_gpu();
@@ -195,5 +195,5 @@ int main(int argc, char** argv) {
   require(vkQueueSubmit(gpu.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
   require(vkQueueWaitIdle(gpu.queue), "vkQueueWaitIdle");
   std::memcpy(pixels.data(), mapped, bytes);
-  require(obscura::support::write_image(argv[2], picture));
+  require(obscura::tools::write_image(argv[2], picture));
 }

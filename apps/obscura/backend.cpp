@@ -2,7 +2,7 @@
 
 #include "fmt/format.h"
 #ifdef OBSCURA_WITH_VULKAN
-#include "support/vulkan/headless.h"
+#include "device/headless.h"
 #endif
 
 namespace obscura::app {
@@ -15,10 +15,10 @@ Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings
                      std::string* ran_on) {
   const auto* method = std::get_if<MethodSettings>(&settings);
   if (!method) return unsupported("the method geometric does not run on Vulkan");
-  support::HeadlessVulkan vulkan;
-  if (Status s = support::HeadlessVulkan::create({.device = device}, &vulkan); !s.ok()) return s;
+  tools::HeadlessVulkan vulkan;
+  if (Status s = tools::HeadlessVulkan::create({.device = device}, &vulkan); !s.ok()) return s;
   if (hardware_only && vulkan.info().software) return unsupported("there is no Vulkan hardware");
-  support::HeadlessTimes times;
+  tools::HeadlessTimes times;
   if (Status s = vulkan.run(input.field(), *method, outputs, &times); !s.ok()) return s;
   if (options.pass_times) {
     for (const auto& pass : times.passes) options.pass_times->push_back({pass.name, pass.ms});
@@ -75,8 +75,8 @@ Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input
 
 Status print_devices() {
 #ifdef OBSCURA_WITH_VULKAN
-  std::vector<support::VulkanDeviceInfo> devices;
-  if (Status s = support::list_vulkan_devices(&devices); !s.ok()) return s;
+  std::vector<tools::VulkanDeviceInfo> devices;
+  if (Status s = tools::list_vulkan_devices(&devices); !s.ok()) return s;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     fmt::print("{}  {}  ({}{})\n", i, devices[i].name, devices[i].driver,
                devices[i].software ? ", software" : "");

@@ -8,9 +8,9 @@
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
 #include "fmt/format.h"
-#include "support/files/files.h"
-#include "support/progress/progress_bar.h"
-#include "support/progress/stopwatch.h"
+#include "io/images/files.h"
+#include "io/report/progress_bar.h"
+#include "io/report/stopwatch.h"
 
 namespace obscura::app {
 namespace {
@@ -38,15 +38,15 @@ double mean(const ImageView<const float>& image) {
 }
 
 Status run_ao(const AoCommand& c, bool quiet) {
-  const support::Stopwatch watch;
+  const tools::Stopwatch watch;
   AnySettings settings;
   OutputImages images;
   if (Status s = c.method.settings(&settings); !s.ok()) return s;
   if (Status s = OutputImages::parse(c.outputs, &images); !s.ok()) return s;
   if (Status s = images.check_file(c.output); !s.ok()) return s;
-  if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
-  if (c.keep_channels && (support::file_ending(c.output) != ".exr" ||
-                          support::file_ending(c.input.path()) != ".exr")) {
+  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
+  if (c.keep_channels &&
+      (tools::file_ending(c.output) != ".exr" || tools::file_ending(c.input.path()) != ".exr")) {
     return invalid_argument("--keep-channels needs an EXR file as input and as output");
   }
 
@@ -56,7 +56,7 @@ Status run_ao(const AoCommand& c, bool quiet) {
 
   const DepthField field = input.field();
   const Outputs outputs = images.allocate(field.visible_width(), field.visible_height());
-  support::ProgressBar bar(c.method.method(), !quiet);
+  tools::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;
   options.progress = [&bar](double share) { return bar(share); };
   std::vector<PassTime> pass_times;
@@ -67,16 +67,16 @@ Status run_ao(const AoCommand& c, bool quiet) {
   }
   const double computed = watch.seconds();
 
-  support::WriteOptions write;
+  tools::WriteOptions write;
   write.half = c.half;
   if (c.keep_channels) {
     write.keep_channels_of = c.input.path();
     write.kept_guard_band = field.guard_band;
   }
-  if (Status s = support::write_image(c.output, images.image(), write); !s.ok()) return s;
+  if (Status s = tools::write_image(c.output, images.image(), write); !s.ok()) return s;
   const double total = watch.seconds();
 
-  support::Report report;
+  tools::Report report;
   report.settings = to_json(settings);
   report.settings["input"] = c.input.path();
   report.settings["method"] = c.method.method();

@@ -6,9 +6,9 @@
 #include "apps/obscura/app.h"
 #include "apps/obscura/output.h"
 #include "fmt/format.h"
-#include "support/files/files.h"
-#include "support/metrics/compare.h"
-#include "support/pictures/pictures.h"
+#include "io/images/files.h"
+#include "io/pictures/pictures.h"
+#include "scene/truth/compare.h"
 
 namespace obscura::app {
 namespace {
@@ -19,7 +19,7 @@ struct CompareCommand {
 };
 
 // The channels to compare: those asked for, else visibility, else all that both images have.
-Status choose_channels(const support::Image& a, const support::Image& b, const std::string& wanted,
+Status choose_channels(const tools::Image& a, const tools::Image& b, const std::string& wanted,
                        std::vector<std::pair<int, int>>* pairs) {
   std::string names_a, names_b;
   for (int i = 0; i < static_cast<int>(a.channels.size()); ++i) {
@@ -40,7 +40,7 @@ Status choose_channels(const support::Image& a, const support::Image& b, const s
       }
     }
     // A lone channel, whatever its name in that file format, against a visibility channel.
-    auto lone = [&](const support::Image& many, const support::Image& one, bool swap) {
+    auto lone = [&](const tools::Image& many, const tools::Image& one, bool swap) {
       if (!pairs->empty() || one.channels.size() != 1) return;
       for (int i = 0; i < static_cast<int>(many.channels.size()); ++i) {
         if (many.channels[i].name != "visibility") continue;
@@ -56,7 +56,7 @@ Status choose_channels(const support::Image& a, const support::Image& b, const s
 }
 
 // The visible part of a depth image that may have a guard band around it.
-Status crop_mask(const support::Image& depth, int width, int height, ImageView<const float>* mask) {
+Status crop_mask(const tools::Image& depth, int width, int height, ImageView<const float>* mask) {
   int channel = 0;
   for (int i = 0; i < static_cast<int>(depth.channels.size()); ++i) {
     if (depth.channels[i].name == "Z") channel = i;
@@ -73,21 +73,21 @@ Status crop_mask(const support::Image& depth, int width, int height, ImageView<c
 }
 
 Status run_compare(const CompareCommand& c) {
-  support::Image a, b, depth;
-  if (Status s = support::read_image(c.image, &a); !s.ok()) return s;
-  if (Status s = support::read_image(c.reference, &b); !s.ok()) return s;
+  tools::Image a, b, depth;
+  if (Status s = tools::read_image(c.image, &a); !s.ok()) return s;
+  if (Status s = tools::read_image(c.reference, &b); !s.ok()) return s;
   std::vector<std::pair<int, int>> pairs;
   if (Status s = choose_channels(a, b, c.channel, &pairs); !s.ok()) return s;
   ImageView<const float> mask;
   if (!c.mask.empty()) {
-    if (Status s = support::read_image(c.mask, &depth); !s.ok()) return s;
+    if (Status s = tools::read_image(c.mask, &depth); !s.ok()) return s;
     if (Status s = crop_mask(depth, a.width, a.height, &mask); !s.ok()) return s;
   }
-  support::Report report;
+  tools::Report report;
   report.settings = {{"image", c.image}, {"reference", c.reference}, {"mask", c.mask}};
   for (const auto& [i, j] : pairs) {
-    support::Comparison r;
-    if (Status s = support::compare(a.view(i), b.view(j), mask, &r); !s.ok()) return s;
+    tools::Comparison r;
+    if (Status s = tools::compare(a.view(i), b.view(j), mask, &r); !s.ok()) return s;
     const std::string& name = a.channels[i].name;
     report.add(name, "e_A", r.e_a, "%");
     report.add(name, "e_<5%", r.within_5, "%");
@@ -104,9 +104,9 @@ Status run_compare(const CompareCommand& c) {
     }
   }
   if (!c.error_image.empty()) {
-    const support::Image picture =
-        support::error_picture(a.view(pairs[0].first), b.view(pairs[0].second), mask);
-    if (Status s = support::write_image(c.error_image, picture); !s.ok()) return s;
+    const tools::Image picture =
+        tools::error_picture(a.view(pairs[0].first), b.view(pairs[0].second), mask);
+    if (Status s = tools::write_image(c.error_image, picture); !s.ok()) return s;
   }
   return write_json(report, c.json);
 }

@@ -6,12 +6,12 @@
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
 #include "fmt/format.h"
-#include "support/files/files.h"
-#include "support/metrics/compare.h"
-#include "support/pictures/pictures.h"
-#include "support/progress/progress_bar.h"
-#include "support/progress/stopwatch.h"
-#include "support/scenes/load_scene.h"
+#include "io/images/files.h"
+#include "io/pictures/pictures.h"
+#include "io/report/progress_bar.h"
+#include "io/report/stopwatch.h"
+#include "scene/scenes/load_scene.h"
+#include "scene/truth/compare.h"
 
 namespace obscura::app {
 namespace {
@@ -25,7 +25,7 @@ struct DemoCommand {
 
 // Visibility of an input by one method, and the seconds it took.
 struct Run {
-  support::Image image;
+  tools::Image image;
   double seconds = 0;
 
   ImageView<const float> view() const { return image.view(0); }
@@ -34,10 +34,10 @@ struct Run {
 Status run_timed(const std::string& label, const AnySettings& settings, const LoadedInput& input,
                  int threads, bool quiet, Run* run) {
   const DepthField field = input.field();
-  run->image = support::Image(field.visible_width(), field.visible_height());
+  run->image = tools::Image(field.visible_width(), field.visible_height());
   run->image.add("visibility");
-  support::ProgressBar bar(label, !quiet);
-  const support::Stopwatch watch;
+  tools::ProgressBar bar(label, !quiet);
+  const tools::Stopwatch watch;
   const Status status =
       run_method(settings, input, threads, {.visibility = run->image.view(0)},
                  {.executor = nullptr, .progress = [&bar](double share) { return bar(share); }});
@@ -52,33 +52,33 @@ Status write_pictures(const DemoCommand& c, const std::string& name, const Depth
                                   field.visible_width(), field.visible_height(), v.row_stride);
   };
   const auto mask = visible(field.depth);
-  const support::Image depth = support::depth_picture(mask);
-  const support::Image normals = support::vector_picture(
+  const tools::Image depth = tools::depth_picture(mask);
+  const tools::Image normals = tools::vector_picture(
       {visible(field.normals.x), visible(field.normals.y), visible(field.normals.z)});
-  const support::Image fast = support::grey_picture(method.view());
-  const support::Image traced = support::grey_picture(truth.view());
-  const support::Image error = support::error_picture(method.view(), truth.view(), mask);
-  const support::Image comparison = support::beside(
+  const tools::Image fast = tools::grey_picture(method.view());
+  const tools::Image traced = tools::grey_picture(truth.view());
+  const tools::Image error = tools::error_picture(method.view(), truth.view(), mask);
+  const tools::Image comparison = tools::beside(
       {{fmt::format("{}, {:.2f} s", kDefaultMethod, method.seconds), fast},
        {fmt::format("ray-traced truth, {} rays, {:.2f} s", kTruthRays, truth.seconds), traced},
        {"difference: white 0 %, black 20 % and more", error}});
-  const std::pair<const char*, const support::Image*> pictures[] = {
+  const std::pair<const char*, const tools::Image*> pictures[] = {
       {"depth", &depth},  {"normals", &normals}, {"visibility", &fast},
       {"truth", &traced}, {"error", &error},     {"comparison", &comparison}};
   for (const auto& [what, picture] : pictures) {
     const std::string path = fmt::format("{}/{}-{}.png", c.folder, name, what);
-    if (Status s = support::write_image(path, *picture); !s.ok()) return s;
+    if (Status s = tools::write_image(path, *picture); !s.ok()) return s;
   }
   return {};
 }
 
 // `length` is the falloff's, as a share of the scene size.
 Status demo_scene(const DemoCommand& c, const std::string& name, double length, bool quiet,
-                  support::Report* report) {
+                  tools::Report* report) {
   const auto executor = make_executor(c.threads);
   LoadedInput input;
   const std::string spec = fmt::format("scene:{}?size={}", name, c.size);
-  if (Status s = support::load_scene(spec, {}, *executor, &input.rendering); !s.ok()) return s;
+  if (Status s = tools::load_scene(spec, {}, *executor, &input.rendering); !s.ok()) return s;
   input.rendering.gbuffer.name = spec;
   const DepthField field = input.field();
 
@@ -96,11 +96,11 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
   if (s.ok()) s = write_pictures(c, name, field, method, truth);
   if (!s.ok()) return s;
 
-  support::Comparison r;
+  tools::Comparison r;
   const ImageView<const float> mask(&field.depth(field.guard_band.left, field.guard_band.top),
                                     field.visible_width(), field.visible_height(),
                                     field.depth.row_stride);
-  if (s = support::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
+  if (s = tools::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
   report->add(name, "time", 1e3 * method.seconds, "ms");
   report->add(name, "time of the truth", 1e3 * truth.seconds, "ms");
   report->add(name, "e_A", r.e_a, "%");
@@ -123,7 +123,7 @@ Status run_demo(const DemoCommand& c, bool quiet) {
     return {StatusCode::kInternal,
             fmt::format("cannot make the folder {}: {}", c.folder, error.message())};
   }
-  support::Report report;
+  tools::Report report;
   report.settings = {{"method", kDefaultMethod}, {"rays", kTruthRays}, {"size", c.size}};
   if (Status s = demo_scene(c, "hall", 0.1, quiet, &report); !s.ok()) return s;
   if (Status s = demo_scene(c, "meadow", 0.05, quiet, &report); !s.ok()) return s;

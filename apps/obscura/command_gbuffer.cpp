@@ -4,7 +4,7 @@
 #include "apps/obscura/app.h"
 #include "apps/obscura/input.h"
 #include "fmt/format.h"
-#include "support/files/gbuffer_file.h"
+#include "io/images/gbuffer_file.h"
 
 namespace obscura::app {
 namespace {
@@ -23,7 +23,7 @@ Status run_gbuffer(const GbufferCommand& c, bool quiet) {
     return invalid_argument(fmt::format(
         "{} is a depth image already; gbuffer renders scenes and meshes", c.input.path()));
   }
-  if (Status s = support::write_gbuffer(c.output, input.depth(), input.rendering.view, c.half);
+  if (Status s = tools::write_gbuffer(c.output, input.depth(), input.rendering.view, c.half);
       !s.ok()) {
     return s;
   }

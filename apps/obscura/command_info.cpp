@@ -7,8 +7,8 @@
 #include "apps/obscura/output.h"
 #include "apps/obscura/volume_input.h"
 #include "fmt/format.h"
-#include "support/files/describe.h"
-#include "support/files/files.h"
+#include "io/images/describe.h"
+#include "io/images/files.h"
 
 namespace obscura::app {
 namespace {
@@ -20,13 +20,13 @@ struct InfoCommand {
 };
 
 Status run_volume_info(const InfoCommand& c) {
-  support::VolumeImage image;
+  tools::VolumeImage image;
   nlohmann::ordered_json description;
   if (Status s = c.volume.load(c.path, &image); !s.ok()) return s;
-  if (Status s = support::describe_volume(image, &description); !s.ok()) return s;
-  if (c.json != "-") std::fputs(support::volume_description_text(description).c_str(), stdout);
+  if (Status s = tools::describe_volume(image, &description); !s.ok()) return s;
+  if (c.json != "-") std::fputs(tools::volume_description_text(description).c_str(), stdout);
   if (c.json.empty()) return {};
-  support::Report report;
+  tools::Report report;
   report.settings = description;
   for (const char* metric : {"min", "max", "mean", "otsu_threshold", "finite", "nan", "infinite"}) {
     if (description.contains(metric)) {
@@ -40,11 +40,11 @@ Status run_info(const InfoCommand& c) {
   nlohmann::ordered_json description;
   if (c.devices) return print_devices();
   if (c.path.empty()) return invalid_argument("FILE is missing; or say --devices");
-  if (support::is_volume(c.path)) return run_volume_info(c);
-  if (Status s = support::describe_image(c.path, &description); !s.ok()) return s;
-  if (c.json != "-") std::fputs(support::description_text(description).c_str(), stdout);
+  if (tools::is_volume(c.path)) return run_volume_info(c);
+  if (Status s = tools::describe_image(c.path, &description); !s.ok()) return s;
+  if (c.json != "-") std::fputs(tools::description_text(description).c_str(), stdout);
   if (c.json.empty()) return {};
-  support::Report report;
+  tools::Report report;
   report.settings = description;
   for (const auto& channel : description["channels"]) {
     for (const char* metric : {"min", "max", "finite", "nan", "infinite"}) {

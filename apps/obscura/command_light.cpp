@@ -9,13 +9,13 @@
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
 #include "fmt/format.h"
+#include "io/environments/convolution_cache.h"
+#include "io/images/files.h"
+#include "io/report/progress_bar.h"
+#include "io/report/stopwatch.h"
 #include "obscura/importance.h"
 #include "obscura/lighting.h"
-#include "support/files/files.h"
-#include "support/lighting/comparators.h"
-#include "support/lighting/convolution_cache.h"
-#include "support/progress/progress_bar.h"
-#include "support/progress/stopwatch.h"
+#include "scene/light/comparators.h"
 
 namespace obscura::app {
 namespace {
@@ -61,15 +61,15 @@ Status one_of(const char* option, const std::string& value,
 
 // Eye space to world space: a scene's own camera, then the camera's pitch and heading.
 std::array<float, 9> world_from_eye(const LightCommand& c, const LoadedInput& input) {
-  support::Frame frame;
+  tools::Frame frame;
   if (input.rendering.scene) frame = input.rendering.view.frame();
   const double h = c.heading_deg * std::numbers::pi / 180;
   const double p = c.pitch_deg * std::numbers::pi / 180;
   std::array<float, 9> m;
-  const support::Vec3 axes[3] = {
+  const tools::Vec3 axes[3] = {
       {1, 0, 0}, {0, std::cos(p), std::sin(p)}, {0, -std::sin(p), std::cos(p)}};
   for (int column = 0; column < 3; ++column) {
-    const support::Vec3 v = frame.to_world(axes[column]);
+    const tools::Vec3 v = frame.to_world(axes[column]);
     m[column] = float(std::cos(h) * v.x - std::sin(h) * v.z);
     m[3 + column] = float(v.y);
     m[6 + column] = float(std::sin(h) * v.x + std::cos(h) * v.z);
@@ -87,14 +87,14 @@ struct Buffers {
     normal = {image.view(2), image.view(3), image.view(4)};
     bent = {image.view(5), image.view(6), image.view(7)};
   }
-  support::Image image;
+  tools::Image image;
   ImageView<float> visibility, angle;
   VectorView<float> normal, bent;
 };
 
 Status estimate(const LightCommand& c, const AnySettings& method, const LoadedInput& input,
                 LightingTechnique technique, Buffers* b, const RunOptions& options) {
-  const support::DepthInput& g = input.depth();
+  const tools::DepthInput& g = input.depth();
   const DepthField field = input.field();
   Outputs outputs;
   outputs.visibility = b->visibility;
@@ -130,7 +130,7 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
 // Light by what cones are compared with; the sun is the convolved light's.
 Status light_by_comparator(const LightCommand& c, AnySettings method, const LoadedInput& input,
                            const Environment& map, const PreconvolvedEnvironment& lights,
-                           const std::array<float, 9>& m, support::Image* image,
+                           const std::array<float, 9>& m, tools::Image* image,
                            const RunOptions& options) {
   Environment environment;
   if (Status s = map.with_sun(lights.sun(), &environment); !s.ok()) return s;
@@ -150,9 +150,9 @@ Status light_by_comparator(const LightCommand& c, AnySettings method, const Load
     return light_by_importance(input.field(), environment, settings, out, options);
   }
   if (c.comparator == "samples" && hemisphere) {
-    hemisphere->radiance = support::light_of_samples(lights, hemisphere->samples, m);
+    hemisphere->radiance = tools::light_of_samples(lights, hemisphere->samples, m);
   } else if (c.comparator == "samples" && reference) {
-    reference->radiance = support::light_of_rays(environment, m);
+    reference->radiance = tools::light_of_rays(environment, m);
   } else {
     return invalid_argument(
         fmt::format("--comparator {} needs --method hemisphere{}, not {}", c.comparator,
@@ -165,7 +165,7 @@ Status light_by_comparator(const LightCommand& c, AnySettings method, const Load
 
 // Light by a technique from what the estimator has left in the buffers.
 Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment& lights,
-                          const LightingSettings& settings, support::Image* image,
+                          const LightingSettings& settings, tools::Image* image,
                           const RunOptions& options) {
   LightingInputs inputs;
   inputs.visibility = buffers.visibility;
@@ -177,8 +177,8 @@ Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment&
 
 // Background pixels show the environment along their rays, or black.
 void fill_background(const LoadedInput& input, const std::array<float, 9>& m,
-                     const Environment* environment, support::Image* image) {
-  const support::DepthInput& g = input.depth();
+                     const Environment* environment, tools::Image* image) {
+  const tools::DepthInput& g = input.depth();
   const bool far_end = g.depth_kind == DepthKind::kNdc || g.depth_kind == DepthKind::kNdcReversed;
   for (int y = 0; y < image->height; ++y) {
     for (int x = 0; x < image->width; ++x) {
@@ -208,8 +208,8 @@ void fill_background(const LoadedInput& input, const std::array<float, 9>& m,
 }
 
 // Means of n x n pixels.
-support::Image reduced(const support::Image& image, int n) {
-  support::Image result(image.width / n, image.height / n);
+tools::Image reduced(const tools::Image& image, int n) {
+  tools::Image result(image.width / n, image.height / n);
   for (const auto& channel : image.channels) {
     std::vector<float>& to = result.add(channel.name);
     for (int y = 0; y < result.height; ++y) {
@@ -226,7 +226,7 @@ support::Image reduced(const support::Image& image, int n) {
 }
 
 // Linear light as a screen shows it, brightened by `exposure` stops.
-void to_srgb(double exposure, support::Image* image) {
+void to_srgb(double exposure, tools::Image* image) {
   const auto gain = static_cast<float>(std::exp2(exposure));
   for (auto& channel : image->channels) {
     for (float& v : channel.values) {
@@ -257,7 +257,7 @@ Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
 }
 
 Status run_light(const LightCommand& c, bool quiet) {
-  const support::Stopwatch watch;
+  const tools::Stopwatch watch;
   AnySettings method;
   LightingSettings settings;
   float albedo[3];
@@ -268,28 +268,28 @@ Status run_light(const LightCommand& c, bool quiet) {
   if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
     return s;
   }
-  if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
-  support::EnvironmentSource source;
-  if (Status s = support::open_environment(c.environment, &source); !s.ok()) return s;
+  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
+  tools::EnvironmentSource source;
+  if (Status s = tools::open_environment(c.environment, &source); !s.ok()) return s;
 
   const auto executor = make_executor(c.threads);
   PreconvolvedEnvironment lights;
   EnvironmentRepairs repairs;
   bool from_cache = false;
   {
-    support::ProgressBar bar("environment", !quiet);
+    tools::ProgressBar bar("environment", !quiet);
     RunOptions options;
     options.executor = executor.get();
     options.progress = [&bar](double share) { return bar(share); };
-    support::ConvolutionCache cache;
+    tools::ConvolutionCache cache;
     cache.enabled = !c.no_cache;
-    if (Status s = support::preconvolve(source, {}, cache, &lights, &repairs, &from_cache, options);
+    if (Status s = tools::preconvolve(source, {}, cache, &lights, &repairs, &from_cache, options);
         !s.ok()) {
       return s;
     }
   }
   if (!quiet && repairs.any()) {
-    fmt::print(stderr, "obscura: {}: {}\n", source.name, support::describe(repairs));
+    fmt::print(stderr, "obscura: {}: {}\n", source.name, tools::describe(repairs));
   }
   if (Status s = with_sun_of(c, &lights); !s.ok()) return s;
   const double convolved = watch.seconds();
@@ -302,8 +302,7 @@ Status run_light(const LightCommand& c, bool quiet) {
   const bool compared = c.comparator != "none";
   if (compared || !c.no_background) {
     EnvironmentRepairs same;
-    if (Status s = support::load_environment(source, &environment, &same, executor.get());
-        !s.ok()) {
+    if (Status s = tools::load_environment(source, &environment, &same, executor.get()); !s.ok()) {
       return s;
     }
   }
@@ -314,9 +313,9 @@ Status run_light(const LightCommand& c, bool quiet) {
     return invalid_argument(fmt::format(
         "--supersample is {}; the visible size, {}x{}, is no multiple of it", c.supersample, w, h));
   }
-  support::Image image(w, h);
+  tools::Image image(w, h);
   for (const char* name : {"R", "G", "B"}) image.add(name);
-  support::ProgressBar bar(c.method.method(), !quiet);
+  tools::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;
   options.progress = [&bar](double share) { return bar(share); };
   const double prepared = watch.seconds();
@@ -336,12 +335,12 @@ Status run_light(const LightCommand& c, bool quiet) {
 
   fill_background(input, settings.world_from_eye, c.no_background ? nullptr : &environment, &image);
   if (c.supersample > 1) image = reduced(image, c.supersample);
-  if (support::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
-  support::WriteOptions write;
+  if (tools::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
+  tools::WriteOptions write;
   write.half = c.half;
-  if (Status s = support::write_image(c.output, image, write); !s.ok()) return s;
+  if (Status s = tools::write_image(c.output, image, write); !s.ok()) return s;
 
-  support::Report report;
+  tools::Report report;
   report.settings = to_json(method);
   report.settings["input"] = c.input.path();
   report.settings["method"] = c.method.method();
@@ -372,7 +371,7 @@ void add_light(App& app) {
   command
       ->add_option("--environment", c->environment,
                    "Latitude-longitude map, twice as wide as high (.hdr, .exr, .pfm), or " +
-                       support::sky_help())
+                       tools::sky_help())
       ->required()
       ->type_name("FILE|sky");
   command

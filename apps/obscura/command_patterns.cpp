@@ -4,8 +4,8 @@
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/option_table.h"
-#include "support/patterns/pattern_files.h"
-#include "support/progress/progress_bar.h"
+#include "io/patterns/pattern_files.h"
+#include "io/report/progress_bar.h"
 
 namespace obscura::app {
 namespace {
@@ -18,9 +18,8 @@ struct PatternsCommand {
 
 Status run_patterns(const PatternsCommand& c, bool quiet) {
   if (c.tables) {
-    support::ProgressBar bar("patterns", !quiet);
-    std::fputs(support::pattern_tables_source([&bar](double share) { bar(share); }).c_str(),
-               stdout);
+    tools::ProgressBar bar("patterns", !quiet);
+    std::fputs(tools::pattern_tables_source([&bar](double share) { bar(share); }).c_str(), stdout);
     return {};
   }
   if (c.kind != "disk" && c.kind != "ball") {
@@ -29,7 +28,7 @@ Status run_patterns(const PatternsCommand& c, bool quiet) {
   PatternSettings settings;
   if (Status s = c.options.read(&settings); !s.ok()) return s;
   nlohmann::ordered_json json;
-  if (Status s = support::describe_pattern(c.kind == "ball", settings, &json); !s.ok()) return s;
+  if (Status s = tools::describe_pattern(c.kind == "ball", settings, &json); !s.ok()) return s;
   std::puts(json.dump(2).c_str());
   return {};
 }
@@ -44,7 +43,8 @@ void add_patterns(App& app) {
   command->add_option("--kind", c->kind, "disk (lines, areas) or ball (points) [default disk]")
       ->type_name("");
   command->add_flag("--tables", c->tables,
-                    "Print the source of src/math/pattern_tables.cpp instead: every pattern that "
+                    "Print the source of src/screen/volumetric/patterns/pattern_tables.cpp "
+                    "instead: every pattern that "
                     "ships, made again; takes minutes");
   c->options.declare("patterns", PatternSettings{});
   c->options.add_to(command, "Pattern");

@@ -4,8 +4,8 @@
 
 #include "apps/obscura/app.h"
 #include "fmt/format.h"
-#include "support/progress/progress_bar.h"
-#include "support/reproduce/reproduce.h"
+#include "io/report/progress_bar.h"
+#include "reproduce/reproduce.h"
 
 namespace obscura::app {
 namespace {
@@ -17,14 +17,14 @@ struct ReproduceCommand {
 
 std::string reproduction_names() {
   std::string names;
-  for (const support::Reproduction& r : support::reproductions()) {
+  for (const tools::Reproduction& r : tools::reproductions()) {
     names += (names.empty() ? "" : ", ") + std::string(r.name);
   }
   return names;
 }
 
 Status run_reproduce(const ReproduceCommand& c, bool quiet) {
-  for (const support::Reproduction& r : support::reproductions()) {
+  for (const tools::Reproduction& r : tools::reproductions()) {
     if (c.name != r.name) continue;
     if (!c.data.empty() && !std::filesystem::is_directory(c.data)) {
       return invalid_input(fmt::format("--data {} is not a folder", c.data));
@@ -35,11 +35,11 @@ Status run_reproduce(const ReproduceCommand& c, bool quiet) {
       return {StatusCode::kInternal,
               fmt::format("cannot make the folder {}: {}", c.folder, error.message())};
     }
-    support::ProgressBar bar(c.name, !quiet);
-    const support::ReproduceContext context(
+    tools::ProgressBar bar(c.name, !quiet);
+    const tools::ReproduceContext context(
         c.folder, c.name, c.threads, c.data,
         [&bar](const std::string&, double share) { return bar(share); });
-    if (Status s = support::reproduce(r, c.folder, context); !s.ok()) return s;
+    if (Status s = tools::reproduce(r, c.folder, context); !s.ok()) return s;
     if (!quiet) fmt::print("{0}/{1}.md, {0}/{1}.json\n", c.folder, c.name);
     return {};
   }

@@ -7,14 +7,14 @@
 #include "apps/obscura/output.h"
 #include "apps/obscura/volume_input.h"
 #include "fmt/format.h"
-#include "support/files/files.h"
-#include "support/progress/progress_bar.h"
-#include "support/progress/stopwatch.h"
-#include "support/volume/histogram.h"
-#include "support/volume/procedural.h"
-#include "support/volume/vdb.h"
-#include "support/volume/volume_light.h"
-#include "support/volume/volume_view.h"
+#include "io/images/files.h"
+#include "io/report/progress_bar.h"
+#include "io/report/stopwatch.h"
+#include "io/volumes/vdb.h"
+#include "scene/volumes/histogram.h"
+#include "scene/volumes/procedural.h"
+#include "scene/volumes/volume_light.h"
+#include "scene/volumes/volume_view.h"
 
 namespace obscura::app {
 namespace {
@@ -30,7 +30,7 @@ struct PictureSettings {
 
 // The library's settings as this command names them.
 struct VolumeSettings {
-  support::VolumeViewOptions view{};
+  tools::VolumeViewOptions view{};
   SurfaceSettings surface{};
   DistanceSettings distance{};
   OcclusionSettings occlusion{};
@@ -86,7 +86,7 @@ struct VolumeCommand {
 
 struct Parsed {
   VolumeSettings settings;
-  support::VolumeLight light;
+  tools::VolumeLight light;
   bool visibility = false, coverage = false, depth = false;
 };
 
@@ -105,7 +105,7 @@ Status parse_outputs(const VolumeCommand& c, Parsed* p) {
     }
     *wanted = true;
   }
-  const std::string ending = support::file_ending(c.output);
+  const std::string ending = tools::file_ending(c.output);
   if (int(p->visibility) + int(p->coverage) + int(p->depth) > 1 && ending != ".exr") {
     return invalid_argument(fmt::format(
         "--output {} can hold one result; name one in --outputs, or write .exr", c.output));
@@ -120,7 +120,7 @@ Status parse_outputs(const VolumeCommand& c, Parsed* p) {
 // Everything that can be wrong before a voxel is read.
 Status parse(const VolumeCommand& c, Parsed* p) {
   if (Status s = c.table.read(&p->settings); !s.ok()) return s;
-  if (Status s = support::parse_volume_light(c.light, &p->light); !s.ok()) {
+  if (Status s = tools::parse_volume_light(c.light, &p->light); !s.ok()) {
     return {s.code(), "--" + s.message()};
   }
   if (c.output.empty() && c.fields.empty()) {
@@ -128,10 +128,10 @@ Status parse(const VolumeCommand& c, Parsed* p) {
   }
   const VolumeSettings& settings = p->settings;
   if (!c.output.empty()) {
-    if (Status s = support::check_image_ending(c.output); !s.ok()) return s;
+    if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
     if (Status s = parse_outputs(c, p); !s.ok()) return s;
   }
-  if (c.table.given("gamma") && support::file_ending(c.output) != ".png") {
+  if (c.table.given("gamma") && tools::file_ending(c.output) != ".png") {
     return invalid_argument("--gamma is for .png; other files hold linear visibility");
   }
   const bool rays = settings.picture.method == VolumeMethod::kMonteCarlo;
@@ -142,17 +142,17 @@ Status parse(const VolumeCommand& c, Parsed* p) {
     }
   }
   if (!c.fields.empty()) {
-    const std::string ending = support::file_ending(c.fields);
+    const std::string ending = tools::file_ending(c.fields);
     if (ending != ".nrrd" && ending != ".vdb") {
       return invalid_argument(
           fmt::format("--fields is '{}'; it must end in .nrrd or .vdb", c.fields));
     }
-    if (ending == ".vdb" && !support::has_openvdb()) {
+    if (ending == ".vdb" && !tools::has_openvdb()) {
       return unsupported("--fields: this build has no OpenVDB; write .nrrd");
     }
-    const bool swept = !rays && p->light.kind != support::VolumeLight::kHeadlight;
+    const bool swept = !rays && p->light.kind != tools::VolumeLight::kHeadlight;
     if (settings.picture.fields_of != FieldsKind::kDistance &&
-        (!swept || p->light.kind == support::VolumeLight::kShadow)) {
+        (!swept || p->light.kind == tools::VolumeLight::kShadow)) {
       return invalid_argument(
           "--fields needs swept octants; leave --method and use --light ao, octants or "
           "translucent, or give --fields-of distance");
@@ -162,7 +162,7 @@ Status parse(const VolumeCommand& c, Parsed* p) {
 }
 
 // The isovalue and side: as given, else the volume's own, else Otsu's threshold.
-Status choose_isovalue(const VolumeCommand& c, const support::VolumeImage& image, bool quiet,
+Status choose_isovalue(const VolumeCommand& c, const tools::VolumeImage& image, bool quiet,
                        DistanceSettings* distance) {
   if (!c.table.given("solid") && image.solid) distance->solid = *image.solid;
   if (c.table.given("iso")) return {};
@@ -170,10 +170,10 @@ Status choose_isovalue(const VolumeCommand& c, const support::VolumeImage& image
   if (image.isovalue) {
     distance->isovalue = *image.isovalue;
   } else {
-    support::Histogram histogram;
+    tools::Histogram histogram;
     double threshold = 0;
-    if (Status s = support::make_histogram(image, &histogram); !s.ok()) return s;
-    if (Status s = support::otsu_threshold(image, histogram, &threshold); !s.ok()) return s;
+    if (Status s = tools::make_histogram(image, &histogram); !s.ok()) return s;
+    if (Status s = tools::otsu_threshold(image, histogram, &threshold); !s.ok()) return s;
     distance->isovalue = float(threshold);
     why = "Otsu's threshold; choose another by --iso";
   }
@@ -181,11 +181,11 @@ Status choose_isovalue(const VolumeCommand& c, const support::VolumeImage& image
   return {};
 }
 
-Status write_fields(const VolumeCommand& c, FieldsKind kind, const support::VolumeImage& image,
+Status write_fields(const VolumeCommand& c, FieldsKind kind, const tools::VolumeImage& image,
                     const std::vector<float>& distance, const VisibilityField& field) {
-  support::FieldGrid grid;
-  std::vector<support::NamedField> fields;
-  const support::Double3 h = image.spacing();
+  tools::FieldGrid grid;
+  std::vector<tools::NamedField> fields;
+  const tools::Double3 h = image.spacing();
   if (kind == FieldsKind::kDistance) {
     grid = {image.size, image.axes, image.origin};
     fields.push_back({"distance", distance});
@@ -207,12 +207,12 @@ Status write_fields(const VolumeCommand& c, FieldsKind kind, const support::Volu
       }
     }
   }
-  return support::file_ending(c.fields) == ".vdb" ? support::write_vdb(c.fields, grid, fields)
-                                                  : support::write_nrrd(c.fields, grid, fields);
+  return tools::file_ending(c.fields) == ".vdb" ? tools::write_vdb(c.fields, grid, fields)
+                                                : tools::write_nrrd(c.fields, grid, fields);
 }
 
 // Mean over the pixels that the surface covers, background taken out of those it covers partly.
-double mean_visibility(const support::Image& visibility, const support::Image& coverage) {
+double mean_visibility(const tools::Image& visibility, const tools::Image& coverage) {
   double sum = 0, covered = 0;
   for (std::size_t i = 0; i < coverage.channels[0].values.size(); ++i) {
     const double c = coverage.channels[0].values[i];
@@ -222,26 +222,26 @@ double mean_visibility(const support::Image& visibility, const support::Image& c
   return covered > 0 ? sum / covered : NAN;
 }
 
-Status write_picture(const VolumeCommand& c, const Parsed& p, support::Image visibility,
-                     const support::Image& coverage, const support::Image& depth) {
-  if (support::file_ending(c.output) == ".png" && p.settings.picture.gamma != 1) {
+Status write_picture(const VolumeCommand& c, const Parsed& p, tools::Image visibility,
+                     const tools::Image& coverage, const tools::Image& depth) {
+  if (tools::file_ending(c.output) == ".png" && p.settings.picture.gamma != 1) {
     for (float& v : visibility.channels[0].values) v = std::pow(v, 1 / p.settings.picture.gamma);
   }
-  support::Image result(visibility.width, visibility.height);
+  tools::Image result(visibility.width, visibility.height);
   if (p.visibility) result.add("visibility") = std::move(visibility.channels[0].values);
   if (p.coverage) result.add("coverage") = coverage.channels[0].values;
   if (p.depth) result.add("depth") = depth.channels[0].values;
-  support::WriteOptions write;
+  tools::WriteOptions write;
   write.half = c.half;
-  return support::write_image(c.output, result, write);
+  return tools::write_image(c.output, result, write);
 }
 
 Status run_volume(const VolumeCommand& c, bool quiet) {
   Parsed p;
   if (Status s = parse(c, &p); !s.ok()) return s;
   VolumeSettings& settings = p.settings;
-  const support::Stopwatch watch;
-  support::VolumeImage image;
+  const tools::Stopwatch watch;
+  tools::VolumeImage image;
   if (Status s = c.volume.load(c.input, &image); !s.ok()) return s;
   if (Status s = choose_isovalue(c, image, quiet, &settings.distance); !s.ok()) return s;
   const double loaded = watch.seconds();
@@ -249,7 +249,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   const auto executor = make_executor(c.threads);
   // Runs one stage under a progress bar of its own.
   auto stage = [&](const char* name, auto&& work) {
-    support::ProgressBar bar(name, !quiet);
+    tools::ProgressBar bar(name, !quiet);
     VolumeRun run;
     run.executor = executor.get();
     run.progress = [&bar](double share) { return bar(share); };
@@ -265,9 +265,9 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   const double measured = watch.seconds();
 
   SurfaceCamera camera;
-  if (Status s = support::place_camera(image, distance, settings.view, &camera); !s.ok()) return s;
-  support::VolumeShading shading;
-  support::VolumeTruth truth;
+  if (Status s = tools::place_camera(image, distance, settings.view, &camera); !s.ok()) return s;
+  tools::VolumeShading shading;
+  tools::VolumeTruth truth;
   truth.monte_carlo = settings.picture.method == VolumeMethod::kMonteCarlo;
   truth.settings = settings.monte_carlo;
   status = stage("light", [&](const VolumeRun& run) {
@@ -276,7 +276,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   if (!status.ok()) return status;
   const double swept = watch.seconds();
 
-  support::Report report;
+  tools::Report report;
   report.settings["input"] = c.input;
   report.settings["light"] = c.light;
   report.settings["clipped_size"] = image.size;
@@ -288,8 +288,8 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   report.add(c.light, "time of light sweeps", 1e3 * (swept - measured), "ms");
   if (!c.output.empty()) {
     const int width = settings.view.size.width, height = settings.view.size.height;
-    support::Image visibility(width, height), coverage(width, height), depth(width, height);
-    for (support::Image* i : {&visibility, &coverage, &depth}) i->add("Y");
+    tools::Image visibility(width, height), coverage(width, height), depth(width, height);
+    for (tools::Image* i : {&visibility, &coverage, &depth}) i->add("Y");
     status = stage("render", [&](const VolumeRun& run) {
       return render_surface({view, settings.distance.isovalue, settings.distance.solid, distance},
                             camera, settings.surface, shading.shader(camera),
@@ -326,7 +326,7 @@ void add_volume(App& app) {
   command
       ->add_option("INPUT", c->input,
                    "NIfTI (.nii, .nii.gz), NRRD (.nrrd, .nhdr), OpenVDB (.vdb), .raw, or " +
-                       support::procedural_volume_names() + " with ?size=N&seed=N")
+                       tools::procedural_volume_names() + " with ?size=N&seed=N")
       ->required()
       ->type_name("");
   command
@@ -341,7 +341,7 @@ void add_volume(App& app) {
       ->add_option("--light", c->light,
                    fmt::format("{}; directions and octants in the world; octants are numbered from "
                                "(-,-,-), x fastest [default ao]",
-                               support::VolumeLight::kForm))
+                               tools::VolumeLight::kForm))
       ->type_name("LIGHT");
   c->table.declare("volume", VolumeSettings{});
   c->table.add_to(command, "Settings");

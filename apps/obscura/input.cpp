@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "fmt/format.h"
-#include "support/files/depth_file.h"
-#include "support/meshes/load_mesh.h"
+#include "io/images/depth_file.h"
+#include "scene/scenes/mesh_view.h"
 
 namespace obscura::app {
 namespace {
@@ -37,26 +37,26 @@ void InputOptions::add_to(CLI::App* command) {
                    ".gz) or scene (scene:NAME?key=value&...)")
       ->required()
       ->type_name("");
-  table_.declare(kImages, support::DepthFileOptions{});
-  table_.declare(kScenes, support::ViewOptions{});
+  table_.declare(kImages, tools::DepthFileOptions{});
+  table_.declare(kScenes, tools::ViewOptions{});
   table_.declare(kScenes, RenderedNormals{});
-  table_.declare(kMeshes, support::MeshOptions{});
+  table_.declare(kMeshes, tools::MeshOptions{});
   table_.declare(kMeshes, RenderedNormals{});
   table_.add_to(command, "Input");
 }
 
 Status InputOptions::load(const LayerNeeds& needs, int threads, LoadedInput* input) const {
-  if (support::is_scene(path_) || support::is_mesh(path_)) return render(needs, threads, input);
+  if (tools::is_scene(path_) || tools::is_mesh(path_)) return render(needs, threads, input);
   if (Status s = table_.refuse_others(kImages, "a depth image"); !s.ok()) return s;
-  support::DepthFileOptions options;
+  tools::DepthFileOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
   options.layers = needs.layers;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
-  return support::load_depth_input(path_, options, &input->rendering.gbuffer);
+  return tools::load_depth_input(path_, options, &input->rendering.gbuffer);
 }
 
 Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* input) const {
-  const bool scene = support::is_scene(path_);
+  const bool scene = tools::is_scene(path_);
   if (Status s = table_.refuse_others(scene ? kScenes : kMeshes, path_); !s.ok()) return s;
   RenderedNormals normals;
   if (Status s = table_.read(&normals); !s.ok()) return s;
@@ -65,17 +65,17 @@ Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* i
     return invalid_argument(
         fmt::format("--normals is '{}'; it must be auto, depth or none for a scene or mesh", use));
   }
-  support::MeshOptions options;
+  tools::MeshOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
   options.view.back_depth = options.view.back_depth || needs.back_depth;
   options.view.layers = std::max(options.view.layers, needs.layers);
 
   const auto executor = make_executor(threads);
-  support::Rendering* rendering = &input->rendering;
-  const Status s = scene ? support::load_scene(path_, options.view, *executor, rendering)
-                         : support::load_mesh(path_, options, *executor, rendering);
+  tools::Rendering* rendering = &input->rendering;
+  const Status s = scene ? tools::load_scene(path_, options.view, *executor, rendering)
+                         : tools::load_mesh(path_, options, *executor, rendering);
   if (!s.ok()) return s;
-  support::DepthInput& gbuffer = rendering->gbuffer;
+  tools::DepthInput& gbuffer = rendering->gbuffer;
   gbuffer.name = path_;
   if (use == "none") input->normal_use = NormalUse::kNone;
   if (use == "depth") {

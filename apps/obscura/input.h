@@ -4,16 +4,16 @@
 #include <string>
 
 #include "apps/obscura/option_table.h"
-#include "support/scenes/load_scene.h"
+#include "scene/scenes/load_scene.h"
 
 namespace obscura::app {
 
 // A depth field, and the geometry behind it where the input was a scene or a mesh.
 struct LoadedInput {
-  support::Rendering rendering;  // of a depth image: its G-buffer only, the scene is null
+  tools::Rendering rendering;  // of a depth image: its G-buffer only, the scene is null
   NormalUse normal_use = NormalUse::kAuto;
 
-  const support::DepthInput& depth() const { return rendering.gbuffer; }
+  const tools::DepthInput& depth() const { return rendering.gbuffer; }
   DepthField field() const;
 };
 

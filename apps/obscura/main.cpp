@@ -4,8 +4,8 @@
 
 #include "apps/obscura/app.h"
 #include "fmt/format.h"
+#include "io/report/progress_bar.h"
 #include "obscura/version.h"
-#include "support/progress/progress_bar.h"
 
 namespace obscura::app {
 namespace {
@@ -69,7 +69,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return fail(e.what(), kBadUsage);
   }
-  support::catch_interrupts();
+  tools::catch_interrupts();
   const Status status = app.action();
   if (!status.ok()) return fail(status.message(), exit_code(status));
   return app.exit_code;

@@ -36,7 +36,7 @@ const std::vector<MethodEntry>& methods() {
       {"point", "Volumetric obscurance by point samples (Mittring 2007)", PointSettings{}},
       {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},
       {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",
-       support::GeometricSettings{}},
+       tools::GeometricSettings{}},
   };
   return list;
 }
@@ -98,7 +98,7 @@ LayerNeeds layer_needs(const AnySettings& settings) {
 
 Status run_method(const AnySettings& settings, const LoadedInput& input, int threads,
                   const Outputs& outputs, const RunOptions& options) {
-  if (const auto* geometric = std::get_if<support::GeometricSettings>(&settings)) {
+  if (const auto* geometric = std::get_if<tools::GeometricSettings>(&settings)) {
     if (!input.rendering.scene) {
       return invalid_argument(fmt::format(
           "--method geometric needs a scene or mesh; {} is a depth image", input.depth().name));
@@ -106,7 +106,7 @@ Status run_method(const AnySettings& settings, const LoadedInput& input, int thr
     const auto executor = make_executor(threads);
     RunOptions with_threads = options;
     with_threads.executor = executor.get();
-    return support::trace_geometric(input.rendering, *geometric, outputs, with_threads);
+    return tools::trace_geometric(input.rendering, *geometric, outputs, with_threads);
   }
   Estimator estimator;
   Status status = Estimator::create(std::get<MethodSettings>(settings), input.depth().width,

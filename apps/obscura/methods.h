@@ -9,14 +9,14 @@
 #include "apps/obscura/option_table.h"
 #include "nlohmann/json.hpp"
 #include "obscura/estimator.h"
-#include "support/reference/geometric.h"
+#include "scene/truth/geometric.h"
 
 namespace obscura::app {
 
 inline constexpr const char* kDefaultMethod = "far-field";
 
 // The library's methods and the truth on the real geometry, which needs a scene or mesh.
-using AnySettings = std::variant<MethodSettings, support::GeometricSettings>;
+using AnySettings = std::variant<MethodSettings, tools::GeometricSettings>;
 
 // Every method that --method can name, with its settings at their defaults.
 struct MethodEntry {

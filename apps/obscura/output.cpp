@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "fmt/format.h"
-#include "support/files/files.h"
+#include "io/images/files.h"
 
 namespace obscura::app {
 namespace {
@@ -66,7 +66,7 @@ Status OutputImages::check_file(const std::string& path) const {
 }
 
 Outputs OutputImages::allocate(int width, int height) {
-  image_ = support::Image(width, height);
+  image_ = tools::Image(width, height);
   Outputs outputs;
   for (const std::string& name : names_) {
     if (find_kind(name)->scalar) {
@@ -90,14 +90,14 @@ Outputs OutputImages::allocate(int width, int height) {
   return outputs;
 }
 
-Status write_json(const support::Report& report, const std::string& path) {
+Status write_json(const tools::Report& report, const std::string& path) {
   if (path.empty()) return {};
   const std::string json = report.to_json();
   if (path == "-") {
     std::fputs(json.c_str(), stdout);
     return {};
   }
-  return support::write_text(path, json);
+  return tools::write_text(path, json);
 }
 
 }  // namespace obscura::app

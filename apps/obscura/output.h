@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "io/images/image.h"
+#include "io/report/report.h"
 #include "obscura/outputs.h"
-#include "support/image.h"
-#include "support/report/report.h"
 
 namespace obscura::app {
 
@@ -23,17 +23,17 @@ class OutputImages {
   // Makes the channels at the visible size; the views write into image().
   Outputs allocate(int width, int height);
 
-  support::Image& image() { return image_; }
+  tools::Image& image() { return image_; }
 
   static std::string all_names();
 
  private:
   std::vector<std::string> names_;
-  support::Image image_;
+  tools::Image image_;
 };
 
 // Writes a report as JSON to `path` when it is not empty ("-" is standard output).
-Status write_json(const support::Report& report, const std::string& path);
+Status write_json(const tools::Report& report, const std::string& path);
 
 }  // namespace obscura::app
 

@@ -47,8 +47,8 @@ void VolumeInputOptions::add_to(CLI::App* command) {
       ->group(group);
 }
 
-Status VolumeInputOptions::load(const std::string& path, support::VolumeImage* image) const {
-  std::optional<support::RawLayout> raw;
+Status VolumeInputOptions::load(const std::string& path, tools::VolumeImage* image) const {
+  std::optional<tools::RawLayout> raw;
   if (!size_.empty()) {
     raw.emplace();
     double size[3];
@@ -68,12 +68,12 @@ Status VolumeInputOptions::load(const std::string& path, support::VolumeImage* i
   } else if (!type_.empty() || !spacing_.empty() || big_endian_) {
     return invalid_argument("--raw-type, --raw-spacing and --raw-big-endian need --raw-size");
   }
-  support::ClipBox box;
+  tools::ClipBox box;
   if (!clip_.empty()) {
-    if (Status s = support::parse_clip(clip_, &box); !s.ok()) return s;
+    if (Status s = tools::parse_clip(clip_, &box); !s.ok()) return s;
   }
-  if (Status s = support::load_volume(path, raw, image); !s.ok()) return s;
-  return clip_.empty() ? Status() : support::clip(box, image);
+  if (Status s = tools::load_volume(path, raw, image); !s.ok()) return s;
+  return clip_.empty() ? Status() : tools::clip(box, image);
 }
 
 }  // namespace obscura::app

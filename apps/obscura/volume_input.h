@@ -4,7 +4,7 @@
 #include <string>
 
 #include "CLI/CLI.hpp"
-#include "support/volume/load_volume.h"
+#include "scene/volumes/load_volume.h"
 
 namespace obscura::app {
 
@@ -13,7 +13,7 @@ class VolumeInputOptions {
  public:
   void add_to(CLI::App* command);
 
-  Status load(const std::string& path, support::VolumeImage* image) const;
+  Status load(const std::string& path, tools::VolumeImage* image) const;
 
  private:
   std::string size_, type_, spacing_, clip_;

@@ -8,8 +8,8 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "core/volumetric.h"
-#include "filters/bilateral.h"
+#include "filters/bilateral/bilateral.h"
+#include "screen/volumetric/volumetric.h"
 #include "view/geometry.h"
 
 namespace obscura {

@@ -1,7 +1,7 @@
 // The largest finite depth of the whole image, one part of it per group.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 128) in;
 layout(binding = 0) readonly buffer Depth { float depth[]; };

@@ -6,7 +6,7 @@
   int half_width, half_height; \
   int half_left, half_top;     \
   int half_visible_width, half_visible_height;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kNormals = true;

@@ -1,5 +1,5 @@
 // Single texels fetched around a pixel, as taps-inl.h; symbols as there. After math/leaf_glsl.h,
-// view/taps_leaf.h and vulkan/view.glsl.
+// view/taps_leaf.h and gpu/view.glsl.
 const float kMaxReach = 131072.0;
 
 struct Receiver {

@@ -3,11 +3,11 @@
 #include <new>
 
 #include "core/text.h"
+#include "gpu/frame_constants.h"
+#include "gpu/program.h"
 #include "obscura/vulkan.h"
-#include "vulkan/frame_constants.h"
+#include "screen/half_resolution/gpu.h"
 #include "vulkan/functions.h"
-#include "vulkan/half_program.h"
-#include "vulkan/program.h"
 
 namespace obscura::vulkan {
 namespace {

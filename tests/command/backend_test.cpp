@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "support/files/files.h"
+#include "io/images/files.h"
 #include "tests/command/run_command.h"
 
 namespace obscura {
@@ -22,9 +22,9 @@ TEST_F(BackendTest, VulkanGivesWhatTheProcessorGives) {
   const CommandResult r =
       run(std::string(kPlane) + "--backend vulkan --json times.json -o gpu.pfm", kDriversLeak);
   ASSERT_EQ(r.code, 0) << r.err;
-  support::Image cpu, gpu;
-  ASSERT_TRUE(support::read_image(path("cpu.pfm"), &cpu).ok());
-  ASSERT_TRUE(support::read_image(path("gpu.pfm"), &gpu).ok());
+  tools::Image cpu, gpu;
+  ASSERT_TRUE(tools::read_image(path("cpu.pfm"), &cpu).ok());
+  ASSERT_TRUE(tools::read_image(path("gpu.pfm"), &gpu).ok());
   double sum = 0;
   for (std::size_t i = 0; i < cpu.channels[0].values.size(); ++i) {
     sum += std::abs(cpu.channels[0].values[i] - gpu.channels[0].values[i]);

@@ -3,15 +3,16 @@
 #include <cstring>
 #include <vector>
 
+#include "io/images/files.h"
 #include "nlohmann/json.hpp"
-#include "support/files/files.h"
-#include "support/metrics/compare.h"
+#include "paths.h"
+#include "scene/truth/compare.h"
 #include "tests/command/run_command.h"
 
 namespace obscura {
 namespace {
 
-using support::Image;
+using tools::Image;
 
 std::string pfm(int width, int height, const std::vector<float>& values) {
   std::string bytes = "Pf\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
@@ -24,12 +25,12 @@ TEST_F(CommandTest, SceneGBufferAndFileGiveTheSamePicture) {
   expect_success("ao g.exr --method line --radius 1 -o from-file.exr");
   expect_success("ao 'scene:hall?size=160x90' --method line --radius 1 -o from-scene.exr");
   Image a, b;
-  ASSERT_TRUE(support::read_image(path("from-file.exr"), &a).ok());
-  ASSERT_TRUE(support::read_image(path("from-scene.exr"), &b).ok());
+  ASSERT_TRUE(tools::read_image(path("from-file.exr"), &a).ok());
+  ASSERT_TRUE(tools::read_image(path("from-scene.exr"), &b).ok());
   EXPECT_EQ(a.width, 160);
   EXPECT_EQ(a.height, 90);
-  support::Comparison c;
-  ASSERT_TRUE(support::compare(a.view(0), b.view(0), {}, &c).ok());
+  tools::Comparison c;
+  ASSERT_TRUE(tools::compare(a.view(0), b.view(0), {}, &c).ok());
   EXPECT_LT(c.e_a, 0.01);  // the camera passes through single-precision matrices
   EXPECT_GT(c.correlation, 0.9999);
 }
@@ -41,10 +42,10 @@ TEST_F(CommandTest, BackDepthAndLayersPassThroughAFile) {
     expect_success("ao g.exr" + method + " -o a.pfm");
     expect_success("ao 'scene:tower?size=64x36'" + method + " -o b.pfm");
     Image a, b;
-    ASSERT_TRUE(support::read_image(path("a.pfm"), &a).ok());
-    ASSERT_TRUE(support::read_image(path("b.pfm"), &b).ok());
-    support::Comparison c;
-    ASSERT_TRUE(support::compare(a.view(0), b.view(0), {}, &c).ok());
+    ASSERT_TRUE(tools::read_image(path("a.pfm"), &a).ok());
+    ASSERT_TRUE(tools::read_image(path("b.pfm"), &b).ok());
+    tools::Comparison c;
+    ASSERT_TRUE(tools::compare(a.view(0), b.view(0), {}, &c).ok());
     EXPECT_LT(c.e_a, 0.2) << occluder;  // the camera passes through single-precision matrices
   }
   expect_failure("ao g.exr --method ray-traced --occluder layers:3 -o x.pfm", 3, "layers");
@@ -60,7 +61,7 @@ TEST_F(CommandTest, EveryFormatHoldsTheResult) {
   for (const char* name : {"v.exr", "v.pfm", "v.png"}) {
     expect_success(std::string("ao 'scene:cornell?size=64x64' --method line -o ") + name);
     Image image;
-    ASSERT_TRUE(support::read_image(path(name), &image).ok()) << name;
+    ASSERT_TRUE(tools::read_image(path(name), &image).ok()) << name;
     EXPECT_EQ(image.width, 64);
     EXPECT_EQ(image.channels.size(), 1u);
   }
@@ -70,7 +71,7 @@ TEST_F(CommandTest, KeepChannelsPassesTheOthersThrough) {
   expect_success("gbuffer 'scene:bump?size=32x32' -o g.exr");
   expect_success("ao g.exr --method line --keep-channels -o out.exr");
   Image image;
-  ASSERT_TRUE(support::read_image(path("out.exr"), &image).ok());
+  ASSERT_TRUE(tools::read_image(path("out.exr"), &image).ok());
   for (const char* channel : {"visibility", "Z", "N.X", "N.Y", "N.Z"}) {
     EXPECT_NE(image.find(channel), nullptr) << channel;
   }
@@ -100,7 +101,7 @@ TEST_F(CommandTest, CompareReportsAKnownDifference) {
   EXPECT_EQ(json["rows"][0]["metric"], "e_A");
   EXPECT_NEAR(json["rows"][0]["value"].get<double>(), 10, 1e-4);
   Image e;
-  ASSERT_TRUE(support::read_image(path("e.png"), &e).ok());
+  ASSERT_TRUE(tools::read_image(path("e.png"), &e).ok());
   EXPECT_EQ(e.view(0)(0, 0), 1);
   EXPECT_EQ(e.view(0)(1, 0), 0);  // PFM's last row is the top one
 }
@@ -120,7 +121,7 @@ TEST_F(CommandTest, DepthKindsAndCamerasFromFlags) {
   expect_success("ao d.pfm --method line --fov-y 50 --guard-band 8,4 -o h.pfm");
   for (const char* name : {"a.pfm", "b.pfm", "c.pfm", "e.pfm", "f.pfm", "g.pfm", "h.pfm"}) {
     Image v;
-    ASSERT_TRUE(support::read_image(path(name), &v).ok());
+    ASSERT_TRUE(tools::read_image(path(name), &v).ok());
     EXPECT_EQ(v.width, name[0] == 'h' ? 48 : 64);
     for (float x : v.channels[0].values) EXPECT_NEAR(x, 1, 1e-3) << name;
   }
@@ -212,7 +213,7 @@ TEST_F(CommandTest, TinyAndOddImages) {
     write("d.pfm", pfm(w, h, std::vector<float>(w * h, 1.0f)));
     expect_success("ao d.pfm --fov-y 50 --method line -o v.pfm");
     Image v;
-    ASSERT_TRUE(support::read_image(path("v.pfm"), &v).ok());
+    ASSERT_TRUE(tools::read_image(path("v.pfm"), &v).ok());
     for (float x : v.channels[0].values) EXPECT_NEAR(x, 1, 1e-3);
   }
 }
@@ -221,7 +222,7 @@ TEST_F(CommandTest, BackgroundIsOpen) {
   write("d.pfm", pfm(4, 1, {INFINITY, NAN, 100, 1}));
   expect_success("ao d.pfm --fov-y 50 --far 100 --method line -o v.pfm");
   Image v;
-  ASSERT_TRUE(support::read_image(path("v.pfm"), &v).ok());
+  ASSERT_TRUE(tools::read_image(path("v.pfm"), &v).ok());
   for (int x = 0; x < 3; ++x) EXPECT_EQ(v.view(0)(x, 0), 1);
 }
 
@@ -239,7 +240,7 @@ TEST_F(CommandTest, DemoWritesItsPictures) {
   expect_success("demo -q --size 96x54 -o pictures");
   for (const char* name : {"hall-visibility.png", "meadow-visibility.png"}) {
     Image image;
-    EXPECT_TRUE(support::read_image(path(std::string("pictures/") + name), &image).ok()) << name;
+    EXPECT_TRUE(tools::read_image(path(std::string("pictures/") + name), &image).ok()) << name;
   }
 }
 

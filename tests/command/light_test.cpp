@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "support/files/files.h"
+#include "io/images/files.h"
 #include "tests/command/run_command.h"
 
 namespace obscura {
@@ -17,8 +17,8 @@ TEST_F(LightCommandTest, WritesRadiance) {
     const CommandResult r =
         run(std::string(kHall) + "--environment sky:turbidity=4 -o lit.exr " + more);
     ASSERT_EQ(r.code, 0) << more << r.err;
-    support::Image image;
-    ASSERT_TRUE(support::read_image(path("lit.exr"), &image).ok());
+    tools::Image image;
+    ASSERT_TRUE(tools::read_image(path("lit.exr"), &image).ok());
     ASSERT_EQ(image.channels.size(), 3u);
     double sum = 0;
     for (const auto& channel : image.channels) {
@@ -34,13 +34,13 @@ TEST_F(LightCommandTest, WritesRadiance) {
 // Uniform light, no falloff: what is lit is visibility, whatever the technique.
 TEST_F(LightCommandTest, UniformSkyGivesVisibility) {
   ASSERT_EQ(run("ao scene:hall --size 32x18 --rays 16 --method geometric -o v.pfm").code, 0);
-  support::Image visibility, lit;
-  ASSERT_TRUE(support::read_image(path("v.pfm"), &visibility).ok());
+  tools::Image visibility, lit;
+  ASSERT_TRUE(tools::read_image(path("v.pfm"), &visibility).ok());
   for (const char* technique : {"ambient-occlusion", "bent-normal", "bent-cone"}) {
     const CommandResult r = run(
         std::string(kHall) + "--environment sky:model=uniform -o lit.pfm --technique " + technique);
     ASSERT_EQ(r.code, 0) << r.err;
-    ASSERT_TRUE(support::read_image(path("lit.pfm"), &lit).ok());
+    ASSERT_TRUE(tools::read_image(path("lit.pfm"), &lit).ok());
     for (std::size_t i = 0; i < lit.channels[0].values.size(); ++i) {
       const float v = visibility.channels[0].values[i];
       EXPECT_NEAR(lit.channels[0].values[i], v, 0.005 * v + 1e-6);
@@ -57,8 +57,8 @@ TEST_F(LightCommandTest, ComparatorsLightThePicture) {
                         "sky:model=uniform -o lit.pfm --comparator ") +
             how);
     ASSERT_EQ(r.code, 0) << r.err;
-    support::Image lit;
-    ASSERT_TRUE(support::read_image(path("lit.pfm"), &lit).ok());
+    tools::Image lit;
+    ASSERT_TRUE(tools::read_image(path("lit.pfm"), &lit).ok());
     double sum = 0;
     for (float v : lit.channels[0].values) sum += v;
     EXPECT_NEAR(sum / lit.channels[0].values.size(), 1, 0.02) << how;
@@ -76,9 +76,9 @@ TEST_F(LightCommandTest, SupersamplingAveragesPixels) {
   const std::string command = "light scene:hall --size 32x18 --environment sky -o ";
   ASSERT_EQ(run(command + "full.pfm").code, 0);
   ASSERT_EQ(run(command + "half.pfm --supersample 2").code, 0);
-  support::Image full, half;
-  ASSERT_TRUE(support::read_image(path("full.pfm"), &full).ok());
-  ASSERT_TRUE(support::read_image(path("half.pfm"), &half).ok());
+  tools::Image full, half;
+  ASSERT_TRUE(tools::read_image(path("full.pfm"), &full).ok());
+  ASSERT_TRUE(tools::read_image(path("half.pfm"), &half).ok());
   ASSERT_EQ(half.width, 16);
   ASSERT_EQ(half.height, 9);
   const std::vector<float>&f = full.channels[1].values, &h = half.channels[1].values;

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "paths.h"
+
 namespace obscura {
 
 struct CommandResult {

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "support/files/files.h"
-#include "support/volume/load_volume.h"
-#include "support/volume/vdb.h"
+#include "io/images/files.h"
+#include "io/volumes/vdb.h"
+#include "scene/volumes/load_volume.h"
 #include "tests/command/run_command.h"
 
 namespace obscura {
@@ -16,8 +16,8 @@ TEST_F(VolumeCommand, PicturesOfEveryLight) {
     expect_success(std::string("volume volume:sphere-over-plane?size=24 --size 40x30 -q -o a.pfm "
                                "--light ") +
                    light);
-    support::Image image;
-    ASSERT_TRUE(support::read_image(path("a.pfm"), &image).ok());
+    tools::Image image;
+    ASSERT_TRUE(tools::read_image(path("a.pfm"), &image).ok());
     EXPECT_EQ(image.width, 40);
     EXPECT_EQ(image.height, 30);
     EXPECT_EQ(image.channels[0].values[0], 1);  // background
@@ -34,9 +34,9 @@ TEST_F(VolumeCommand, MonteCarloAgreesWithTheSweep) {
   const std::string volume = "volume volume:cup?size=40 --size 48x48 -q ";
   expect_success(volume + "-o sweep.exr --outputs visibility,coverage,depth --json sweep.json");
   expect_success(volume + "-o rays.exr --method monte-carlo --rays 64");
-  support::Image sweep, rays;
-  ASSERT_TRUE(support::read_image(path("sweep.exr"), &sweep).ok());
-  ASSERT_TRUE(support::read_image(path("rays.exr"), &rays).ok());
+  tools::Image sweep, rays;
+  ASSERT_TRUE(tools::read_image(path("sweep.exr"), &sweep).ok());
+  ASSERT_TRUE(tools::read_image(path("rays.exr"), &rays).ok());
   const auto& a = sweep.find("visibility")->values;
   const auto& b = rays.find("visibility")->values;
   double error = 0;
@@ -63,15 +63,15 @@ TEST_F(VolumeCommand, IsovalueIsChosenAndSaid) {
 TEST_F(VolumeCommand, FieldsAreVolumes) {
   expect_success(
       "volume volume:sphere?size=16 -q --fields d.nrrd --fields-of distance --clip 2:13,:,:");
-  support::VolumeImage image;
-  ASSERT_TRUE(support::load_volume(path("d.nrrd"), {}, &image).ok());
+  tools::VolumeImage image;
+  ASSERT_TRUE(tools::load_volume(path("d.nrrd"), {}, &image).ok());
   EXPECT_EQ(image.size, (std::array{12, 16, 16}));
   EXPECT_NEAR(image.origin[0], 2.5 / 16, 1e-6);
   expect_success("volume volume:sphere?size=16 -q --fields v.nrrd --fields-of scalar");
-  ASSERT_TRUE(support::load_volume(path("v.nrrd"), {}, &image).ok());
-  if (support::has_openvdb()) {
+  ASSERT_TRUE(tools::load_volume(path("v.nrrd"), {}, &image).ok());
+  if (tools::has_openvdb()) {
     expect_success("volume volume:sphere?size=16 -q --fields v.vdb");
-    ASSERT_TRUE(support::load_volume(path("v.vdb"), {}, &image).ok());
+    ASSERT_TRUE(tools::load_volume(path("v.vdb"), {}, &image).ok());
   }
 }
 
@@ -93,8 +93,8 @@ TEST_F(VolumeCommand, HolesAndThinVolumes) {
   write("a.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
   expect_success(
       "volume a.raw --raw-size 12x12x1 --raw-type f32 --iso 0.5 --size 24x24 -q -o a.pfm");
-  support::Image image;
-  ASSERT_TRUE(support::read_image(path("a.pfm"), &image).ok());
+  tools::Image image;
+  ASSERT_TRUE(tools::read_image(path("a.pfm"), &image).ok());
   for (float v : image.channels[0].values) EXPECT_TRUE(v >= 0 && v <= 1);
   std::fill(values.begin(), values.end(), NAN);
   write("b.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "support/vulkan/headless.h"
+#include "device/headless.h"
 
 namespace obscura {
 namespace {
 
 TEST(VulkanDevices, AreListed) {
-  std::vector<support::VulkanDeviceInfo> devices;
-  const Status s = support::list_vulkan_devices(&devices);
+  std::vector<tools::VulkanDeviceInfo> devices;
+  const Status s = tools::list_vulkan_devices(&devices);
   ASSERT_TRUE(s.ok()) << s.message();
   EXPECT_FALSE(devices.front().name.empty());
 }

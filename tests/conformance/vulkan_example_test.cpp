@@ -1,7 +1,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "support/files/files.h"
+#include "io/images/files.h"
+#include "paths.h"
 #include "tests/conformance/vulkan_fixture.h"
 
 namespace obscura {
@@ -16,13 +17,13 @@ TEST_F(VulkanExample, GivesWhatTheProcessorGives) {
   const synthetic::Input in = synthetic::blocks(kWidth, kHeight, camera, 3);
   std::string folder = (std::filesystem::temp_directory_path() / "obscura-XXXXXX").string();
   ASSERT_TRUE(mkdtemp(folder.data()));
-  support::Image depth(kWidth, kHeight), result;
+  tools::Image depth(kWidth, kHeight), result;
   depth.add("Z") = in.depth;
-  ASSERT_TRUE(support::write_image(folder + "/depth.pfm", depth).ok());
+  ASSERT_TRUE(tools::write_image(folder + "/depth.pfm", depth).ok());
   const std::string command =
       "cd '" + folder + "'; '" OBSCURA_VULKAN_EXAMPLE "' depth.pfm visibility.pfm";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  const Status read = support::read_image(folder + "/visibility.pfm", &result);
+  const Status read = tools::read_image(folder + "/visibility.pfm", &result);
   std::filesystem::remove_all(folder);
   ASSERT_TRUE(read.ok()) << read.message();
 

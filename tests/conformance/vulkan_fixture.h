@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "support/vulkan/headless.h"
+#include "device/headless.h"
 #include "tests/property/synthetic.h"
 
 namespace obscura {
@@ -20,8 +20,8 @@ namespace obscura {
 class VulkanTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    vulkan_ = new support::HeadlessVulkan;
-    status_ = support::HeadlessVulkan::create({.validate = true}, vulkan_);
+    vulkan_ = new tools::HeadlessVulkan;
+    status_ = tools::HeadlessVulkan::create({.validate = true}, vulkan_);
   }
   static void TearDownTestSuite() { delete vulkan_; }
   void SetUp() override { ASSERT_TRUE(status_.ok()) << status_.message(); }
@@ -45,7 +45,7 @@ class VulkanTest : public ::testing::Test {
   // something: at least 0.02 of the sphere is seen.
   static void expect_same(const DepthField& field, const MethodSettings& settings,
                           const std::string& what, bool directions = false,
-                          const support::HeadlessFrame& frame = {}) {
+                          const tools::HeadlessFrame& frame = {}) {
     const int w = field.visible_width(), h = field.visible_height();
     std::vector<float> images[2][5];
     Outputs outputs[2];
@@ -61,7 +61,7 @@ class VulkanTest : public ::testing::Test {
     }
     const Status on_cpu = compute(field, settings, outputs[0]);
     ASSERT_TRUE(on_cpu.ok()) << what << ": " << on_cpu.message();
-    support::HeadlessTimes times;
+    tools::HeadlessTimes times;
     const Status on_gpu = vulkan_->run(field, settings, outputs[1], &times, frame);
     ASSERT_TRUE(on_gpu.ok()) << what << ": " << on_gpu.message();
     constexpr const char* kNames[] = {"visibility", "bent x", "bent y", "bent z", "cone"};
@@ -71,7 +71,7 @@ class VulkanTest : public ::testing::Test {
           if (images[0][0][k] < 0.02f) images[i][c][k] = 0;
         }
       }
-      const bool coarse = c > 0 && frame.output == support::VulkanFormat::kR8;
+      const bool coarse = c > 0 && frame.output == tools::VulkanFormat::kR8;
       const double step = !coarse ? 0 : (c == 4 ? 1.57079633 : 2.0) / 255;
       expect_close(images[0][c], images[1][c], what + ", " + kNames[c], step);
     }
@@ -92,7 +92,7 @@ class VulkanTest : public ::testing::Test {
     EXPECT_NE(frames[0], frames[1]);
   }
 
-  static inline support::HeadlessVulkan* vulkan_ = nullptr;
+  static inline tools::HeadlessVulkan* vulkan_ = nullptr;
   static inline Status status_;
 };
 

@@ -67,7 +67,7 @@ TEST_F(VulkanHalfResolution, WithoutBlurWithTwoRadiiAndInEveryFormat) {
   expect_same(in.field(), line, "two radii");
   line.blur = true;
   expect_same(in.field(), line, "two radii, blur");
-  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+  for (auto format : {tools::VulkanFormat::kR8, tools::VulkanFormat::kR16F}) {
     expect_same(in.field(), half<HorizonSettings>(), "format " + std::to_string(int(format)), true,
                 {.output = format});
   }

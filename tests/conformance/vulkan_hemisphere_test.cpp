@@ -70,7 +70,7 @@ TEST_F(VulkanHemisphere, OddSizesGuardBandsAndParallelViews) {
 
 TEST_F(VulkanHemisphere, EveryFormat) {
   const synthetic::Input in = scene(64, 48, 6);
-  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+  for (auto format : {tools::VulkanFormat::kR8, tools::VulkanFormat::kR16F}) {
     expect_same(in.field(), hemisphere(), "format " + std::to_string(int(format)), true,
                 {.output = format});
   }

@@ -89,7 +89,7 @@ TEST_F(VulkanHorizon, TheFarthestDepthBoundsTheBlur) {
 
 TEST_F(VulkanHorizon, EveryFormat) {
   const synthetic::Input in = scene(64, 48, 6);
-  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+  for (auto format : {tools::VulkanFormat::kR8, tools::VulkanFormat::kR16F}) {
     expect_same(in.field(), horizon(), "format " + std::to_string(int(format)), true,
                 {.output = format});
   }

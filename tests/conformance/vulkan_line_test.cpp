@@ -122,7 +122,7 @@ TEST_F(VulkanLine, TwoRadiiAgree) {
 
 TEST_F(VulkanLine, EveryFormatOfVisibility) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 6);
-  for (auto format : {support::VulkanFormat::kR8, support::VulkanFormat::kR16F}) {
+  for (auto format : {tools::VulkanFormat::kR8, tools::VulkanFormat::kR16F}) {
     expect_same(in.field(), line(1), "format", false, {.output = format});
   }
 }

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "support/files/depth_file.h"
-#include "support/files/describe.h"
+#include "io/images/depth_file.h"
+#include "io/images/describe.h"
 
 using namespace obscura;
 
@@ -40,13 +40,13 @@ class MemoryFile {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const MemoryFile file(data, size);
-  support::DepthFileOptions options;
+  tools::DepthFileOptions options;
   options.fov_y = 60;
-  options.normal_space = size % 2 ? support::NormalSpace::kWorld : support::NormalSpace::kView;
+  options.normal_space = size % 2 ? tools::NormalSpace::kWorld : tools::NormalSpace::kView;
   options.layers = 2;
-  support::DepthInput input;
+  tools::DepthInput input;
   for (int pass = 0; pass < 2; ++pass) {
-    if (support::load_depth_input(file.path(), options, &input).ok()) {
+    if (tools::load_depth_input(file.path(), options, &input).ok()) {
       const std::size_t pixels = static_cast<std::size_t>(input.width) * input.height;
       if (input.depth.size() != pixels || input.field().visible_width() < 1) std::abort();
       for (const auto* v : {&input.normal_x, &input.normal_y, &input.normal_z, &input.back_depth}) {
@@ -56,8 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.fov_y = {};  // now from the file's matrices
   }
   nlohmann::ordered_json description;
-  if (support::describe_image(file.path(), &description).ok()) {
-    support::description_text(description);
+  if (tools::describe_image(file.path(), &description).ok()) {
+    tools::description_text(description);
   }
   return 0;
 }

@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/images/files.h"
 #include "obscura/obscura.h"
-#include "support/files/files.h"
-#include "support/metrics/compare.h"
+#include "paths.h"
+#include "scene/truth/compare.h"
 #include "tests/property/synthetic.h"
 
 namespace obscura {
@@ -61,9 +62,9 @@ TEST(FarField, MeetsTheErrorBarsOnTheDepthImages) {
   for (const Case& c :
        {Case{"hall", "hall", 2, 1.0, 98.5}, Case{"spheres", "spheres", 1, 0.7, 98.5},
         Case{"terrain", "terrain", 0.7f, 1.6, 91}, Case{"hall", "hall.endless", kInf, 0.7, 98.5}}) {
-    support::Image depth, truth;
-    ASSERT_TRUE(support::read_image(folder + c.image + ".pfm", &depth).ok());
-    ASSERT_TRUE(support::read_image(folder + c.truth + ".truth.pfm", &truth).ok());
+    tools::Image depth, truth;
+    ASSERT_TRUE(tools::read_image(folder + c.image + ".pfm", &depth).ok());
+    ASSERT_TRUE(tools::read_image(folder + c.truth + ".truth.pfm", &truth).ok());
     DepthField field;
     field.depth = depth.view(0);
     field.guard_band = GuardBand::symmetric(64, 36);
@@ -73,18 +74,18 @@ TEST(FarField, MeetsTheErrorBarsOnTheDepthImages) {
     s.falloff.radius = c.radius;
     auto compare = [&](const FarFieldSettings& settings) {
       const std::vector<float> v = visibility(field, settings, 2);
-      support::Comparison result;
-      EXPECT_TRUE(support::compare({v.data(), 640, 360}, truth.view(0), {}, &result).ok());
+      tools::Comparison result;
+      EXPECT_TRUE(tools::compare({v.data(), 640, 360}, truth.view(0), {}, &result).ok());
       return result;
     };
-    const support::Comparison result = compare(s);
+    const tools::Comparison result = compare(s);
     EXPECT_LE(result.e_a, c.e_a) << c.truth;
     EXPECT_GE(result.within_5, c.within_5) << c.truth;
     if (std::string(c.truth) != "hall") continue;
     s.profile = SlabProfile::kSlab;
     s.receiver_slope = -1;
     s.near_step = NearStep::of(1);
-    const support::Comparison slab = compare(s);
+    const tools::Comparison slab = compare(s);
     EXPECT_NEAR(slab.e_a, 2.91, 0.15 * 2.91);
     EXPECT_GT(slab.bias, 0);
     EXPECT_LE(result.e_a, 0.5 * slab.e_a);

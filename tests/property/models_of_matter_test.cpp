@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "obscura/obscura.h"
-#include "support/meshes/load_mesh.h"
-#include "support/reference/geometric.h"
+#include "paths.h"
+#include "scene/scenes/mesh_view.h"
+#include "scene/truth/geometric.h"
 
 // Two truths that share no code beyond their inputs must agree where the depth field's model of
 // matter is close to the world, and differ more the coarser the model is.
@@ -13,10 +14,10 @@
 namespace obscura {
 namespace {
 
-using support::Rendering;
+using tools::Rendering;
 
-support::ViewOptions view_options() {
-  support::ViewOptions view;
+tools::ViewOptions view_options() {
+  tools::ViewOptions view;
   EXPECT_TRUE(parse_setting("guard-band", {}, "40%", &view.guard_band).ok());
   view.layers = 8;
   view.back_depth = true;
@@ -28,7 +29,7 @@ support::ViewOptions view_options() {
 class Models {
  public:
   explicit Models(const Rendering& r) : r_(r), truth_(pixels(), NAN) {
-    support::GeometricSettings s;
+    tools::GeometricSettings s;
     s.falloff.radius = radius();
     s.rays = 256;
     s.every = kEvery;
@@ -51,7 +52,7 @@ class Models {
     EXPECT_TRUE(status.ok()) << status.message();
     double sum = 0;
     int count = 0;
-    const support::DepthInput& g = r_.gbuffer;
+    const tools::DepthInput& g = r_.gbuffer;
     for (int y = kEvery / 2; y < r_.view.height; y += kEvery) {
       for (int x = kEvery / 2; x < r_.view.width; x += kEvery) {
         const std::size_t i = std::size_t(y) * r_.view.width + x;
@@ -95,7 +96,7 @@ void expect_order(const Rendering& r, const char* what) {
 TEST(ModelsOfMatter, InTheScenes) {
   for (const char* spec : {"scene:cornell", "scene:tower"}) {
     Rendering r;
-    ASSERT_TRUE(support::load_scene(spec, view_options(), *make_executor(), &r).ok());
+    ASSERT_TRUE(tools::load_scene(spec, view_options(), *make_executor(), &r).ok());
     expect_order(r, spec);
   }
 }
@@ -105,10 +106,10 @@ TEST(ModelsOfMatter, OfTheBunny) {
       std::string(OBSCURA_SOURCE_DIR) + "/../shared/data/meshes/stanford-bunny.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the bunny is not there: " << path;
   Rendering r;
-  support::MeshOptions options;
+  tools::MeshOptions options;
   options.view = view_options();
   options.ground = true;
-  ASSERT_TRUE(support::load_mesh(path, options, *make_executor(), &r).ok());
+  ASSERT_TRUE(tools::load_mesh(path, options, *make_executor(), &r).ok());
   const Models models(r);
   // A mesh with holes, thus a sheet: its back depth is that of a skin, not of the animal.
   EXPECT_LE(models.difference(Occluder::of_layers(8)), 1);

@@ -4,16 +4,17 @@
 #include <filesystem>
 
 #include "obscura/estimator.h"
-#include "support/meshes/load_mesh.h"
-#include "support/metrics/compare.h"
-#include "support/reference/geometric.h"
+#include "paths.h"
+#include "scene/scenes/mesh_view.h"
+#include "scene/truth/compare.h"
+#include "scene/truth/geometric.h"
 
 namespace obscura {
 namespace {
 
-using support::Comparison;
-using support::GeometricSettings;
-using support::Rendering;
+using tools::Comparison;
+using tools::GeometricSettings;
+using tools::Rendering;
 
 constexpr int kEvery = 32;
 
@@ -29,21 +30,21 @@ struct View {
 // the surface on both sides.
 void look_at(const std::string& spec, View* view) {
   const std::unique_ptr<Executor> executor = make_executor();
-  support::ViewOptions options;
+  tools::ViewOptions options;
   options.layers = 8;
   options.back_depth = true;
   Status s;
-  if (support::is_scene(spec)) {
-    s = support::load_scene(spec, options, *executor, &view->rendering);
+  if (tools::is_scene(spec)) {
+    s = tools::load_scene(spec, options, *executor, &view->rendering);
   } else {
-    support::MeshOptions mesh;
+    tools::MeshOptions mesh;
     mesh.view = options;
     mesh.view.guard_band = {true, 40, 40};
     mesh.ground = true;
-    s = support::load_mesh(spec, mesh, *executor, &view->rendering);
+    s = tools::load_mesh(spec, mesh, *executor, &view->rendering);
   }
   ASSERT_TRUE(s.ok()) << s.message();
-  const support::DepthInput& g = view->rendering.gbuffer;
+  const tools::DepthInput& g = view->rendering.gbuffer;
   const DepthField field = g.field();
   view->width = field.visible_width();
   view->height = field.visible_height();
@@ -65,7 +66,7 @@ void look_at(const std::string& spec, View* view) {
   view->truth.resize(view->mask.size());
   const Outputs outputs{.visibility = {view->truth.data(), view->width, view->height}};
   const Status traced =
-      support::trace_geometric(view->rendering, settings, outputs, {.executor = executor.get()});
+      tools::trace_geometric(view->rendering, settings, outputs, {.executor = executor.get()});
   ASSERT_TRUE(traced.ok()) << traced.message();
 }
 
@@ -84,7 +85,7 @@ double error_of(const View& view, const Occluder& occluder) {
     return ImageView<const float>(v.data(), view.width, view.height);
   };
   Comparison c;
-  EXPECT_TRUE(support::compare(image(visibility), image(view.truth), image(view.mask), &c).ok());
+  EXPECT_TRUE(tools::compare(image(visibility), image(view.truth), image(view.mask), &c).ok());
   return c.e_a;
 }
 

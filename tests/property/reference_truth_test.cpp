@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "obscura/estimator.h"
+#include "paths.h"
 
 namespace obscura {
 namespace {

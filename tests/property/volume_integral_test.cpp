@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "obscura/obscura.h"
-#include "support/scenes/load_scene.h"
+#include "scene/scenes/load_scene.h"
 #include "view/geometry.h"
 
 namespace obscura {
@@ -46,8 +46,8 @@ double integral(const view::Geometry& g, int x, int y, double radius) {
 
 TEST(VolumeIntegral, ThirtyTwoLinesAgreeWithinOnePerCent) {
   for (const char* name : {"hall", "meadow"}) {
-    support::DepthInput input;
-    ASSERT_TRUE(support::load_scene(std::string("scene:") + name + "?size=320x180", &input).ok());
+    tools::DepthInput input;
+    ASSERT_TRUE(tools::load_scene(std::string("scene:") + name + "?size=320x180", &input).ok());
     const DepthField field = input.field();
     view::Geometry g;
     ASSERT_TRUE(view::convert(field, {.normals = true, .works_without_normals = true},

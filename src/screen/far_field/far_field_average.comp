@@ -2,7 +2,7 @@
 // their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
 

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kWidth = 32, kHeight = 8, kReach = 2;
 layout(local_size_x = 32, local_size_y = 8) in;
@@ -17,7 +17,7 @@ layout(binding = 1) readonly buffer Groups { vec4 groups[]; };  // normal, depth
 layout(binding = 2) readonly buffer Totals { float totals[]; };
 #define VISIBILITY_BINDING 3
 #define DIRECTIONS_BINDING 4
-#include "vulkan/results.glsl"
+#include "gpu/results.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"

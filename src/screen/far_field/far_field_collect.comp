@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kTile = 32;
 layout(local_size_x = 32, local_size_y = 8) in;
@@ -19,7 +19,7 @@ layout(binding = 2) readonly buffer Turned { float turned[]; };
 layout(binding = 3) buffer Totals { float totals[]; };
 #define VISIBILITY_BINDING 4
 #define DIRECTIONS_BINDING 5
-#include "vulkan/results.glsl"
+#include "gpu/results.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #define STORES_TOTALS

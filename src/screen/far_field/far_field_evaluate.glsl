@@ -11,7 +11,7 @@
   int transposed, lattice_stride, margin, directions, direction_count; \
   int sum_stride, add;                                                 \
   float slope;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
 layout(constant_id = 0) const int kFalloff = 1;  // FalloffKind

@@ -4,7 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define PASS_CONSTANTS int transposed, lattice_stride, margin;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kTile = 32;
 layout(local_size_x = 32, local_size_y = 8) in;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
 layout(constant_id = 0) const int kSums = 0;  // SliceSums
@@ -18,7 +18,7 @@ layout(binding = 2) readonly buffer Far { float far[]; };
 layout(binding = 3) buffer Totals { float totals[]; };
 #define VISIBILITY_BINDING 4
 #define DIRECTIONS_BINDING 5
-#include "vulkan/results.glsl"
+#include "gpu/results.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #define STORES_TOTALS

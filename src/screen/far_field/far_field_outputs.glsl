@@ -1,5 +1,5 @@
 // What the caller asked for, from the sums over all slices of a pixel (totals.cpp, finish). Before
-// this: kSums, kOutputs, kPaperCone, kUnsigned, buffer `normals`, vulkan/results.glsl.
+// this: kSums, kOutputs, kPaperCone, kUnsigned, buffer `normals`, gpu/results.glsl.
 const float kPi = 3.14159265;
 
 // Sums of a pixel: what totals.h has as channels; directions in eye space.

@@ -3,7 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define PASS_CONSTANTS int count, last;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kThreads = 256;
 layout(local_size_x = 256) in;

@@ -7,7 +7,7 @@
 #define PASS_CONSTANTS                                                        \
   int transposed, lattice_stride, margin, directions, line_stride, line_step; \
   float slope;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 32, local_size_y = 8) in;
 layout(constant_id = 0) const int kInterval = 10;

@@ -10,7 +10,7 @@
   int rows, line_stride;   \
   int sum_stride, phases;  \
   float slope;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kThreads = 256;
 layout(local_size_x = 256) in;

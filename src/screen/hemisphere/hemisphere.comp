@@ -3,7 +3,7 @@
 // (directional/interleaved.comp).
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kSamples = 8;

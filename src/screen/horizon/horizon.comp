@@ -9,7 +9,7 @@
   float entries_per_length;          \
   int last_entry;                    \
   float bias_sine, bias_cosine;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kDirections = 8;

@@ -8,7 +8,7 @@
   float rho_radius, inverse_radius, entries_per_length; \
   int last_entry, rho_start;                            \
   int levels, directions, steps, step_count, level_count;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kFalloff = 1;  // FalloffKind
@@ -22,7 +22,7 @@ layout(binding = 1) readonly buffer Depth { float depth[]; };
 layout(binding = 2) readonly buffer Pyramid { float pyramid[]; };
 layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
 #define VISIBILITY_BINDING 4
-#include "vulkan/results.glsl"
+#include "gpu/results.glsl"
 
 float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
 

@@ -3,7 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define PASS_CONSTANTS int levels, source, count;
-#include "vulkan/view.glsl"
+#include "gpu/view.glsl"
 
 const int kTile = 32, kThreads = 256;
 layout(local_size_x = 256) in;

@@ -1,4 +1,4 @@
-#include "filters/bilateral.h"
+#include "filters/bilateral/bilateral.h"
 
 #include <gtest/gtest.h>
 

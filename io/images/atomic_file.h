@@ -1,0 +1,31 @@
+#ifndef OBSCURA_IO_IMAGES_ATOMIC_FILE_H_
+#define OBSCURA_IO_IMAGES_ATOMIC_FILE_H_
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "obscura/status.h"
+
+namespace obscura::tools {
+
+// Writes a file so that it is whole or not there: `write` fills the temporary file that it is
+// given, in the same folder, which then takes the name. On failure, a full disk included, the
+// temporary file is removed and an older file of that name stays as it was. A link is followed;
+// pipes and devices are written in place.
+Status write_atomically(const std::string& path,
+                        const std::function<Status(const std::string& temporary)>& write);
+
+// The same for bytes in memory.
+Status write_text(const std::string& path, std::string_view bytes);
+
+// Whether a file can be read; it must exist, be no folder and not be empty.
+Status check_readable(const std::string& path);
+
+// The whole content of a file that is not empty and has at most `limit` bytes.
+Status read_bytes(const std::string& path, std::string* bytes,
+                  std::size_t limit = std::size_t{1} << 34);
+
+}  // namespace obscura::tools
+
+#endif  // OBSCURA_IO_IMAGES_ATOMIC_FILE_H_

@@ -1,0 +1,76 @@
+#ifndef OBSCURA_IO_IMAGES_EXR_H_
+#define OBSCURA_IO_IMAGES_EXR_H_
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/images/image.h"
+#include "obscura/camera.h"
+#include "obscura/status.h"
+
+namespace obscura::tools {
+
+// Pixels [min, max] in both directions, as OpenEXR counts them.
+struct PixelWindow {
+  int min_x = 0, min_y = 0, max_x = -1, max_y = -1;
+
+  int width() const { return max_x - min_x + 1; }
+  int height() const { return max_y - min_y + 1; }
+  bool operator==(const PixelWindow&) const = default;
+};
+
+// The header of an OpenEXR file (its first part).
+struct ExrHeader {
+  struct Channel {
+    std::string name;
+    std::string type;  // half, float or uint
+    bool subsampled = false;
+  };
+  // 16 numbers, row by row as stored: OpenEXR's matrices act on row vectors, p' = p M.
+  using Matrix = std::array<double, 16>;
+
+  PixelWindow display_window, data_window;
+  std::vector<Channel> channels;
+  std::optional<Matrix> world_to_camera, world_to_ndc;
+  std::vector<std::string> attributes;  // names of all others
+  std::shared_ptr<const void> native;   // OpenEXR's own, for write_exr to pass on
+
+  const Channel* find(const std::string& name) const;
+  // The smallest window around data and display window: what a DepthInput covers.
+  PixelWindow whole_window() const;
+};
+
+Status read_exr_header(const std::string& path, ExrHeader* header);
+
+// The channels that `wanted` names (all for an empty list) over the data window, as floats.
+Status read_exr(const std::string& path, const std::vector<std::string>& wanted, ExrHeader* header,
+                Image* image);
+
+struct ExrWriteOptions {
+  bool half = false;  // 16-bit floats
+  // An EXR file whose other channels, in their own types, and attributes go along. The image then
+  // lies on that file's display window, or on its whole window less a guard band where that is
+  // given; windows given below are not used.
+  std::string keep_channels_of{};
+  std::optional<GuardBand> kept_guard_band{};
+  // Where the image lies; by default its own size is display and data window.
+  std::optional<PixelWindow> display_window, data_window;
+  std::optional<ExrHeader::Matrix> world_to_camera, world_to_ndc;
+  // Channels with a type of their own, half or float.
+  std::vector<ExrHeader::Channel> types;
+};
+
+// By name, in any case: Z, depth.Z, Depth.V, ViewLayer.Depth.Z, VRayZDepth.R; the same with "back".
+bool looks_like_depth(const std::string& channel);
+bool looks_like_back_depth(const std::string& channel);
+
+// Writes an image with named channels, ZIP-compressed. Not atomic by itself: see write_image.
+Status write_exr(const std::string& path, const Image& image, const ExrWriteOptions& options);
+
+}  // namespace obscura::tools
+
+#endif  // OBSCURA_IO_IMAGES_EXR_H_

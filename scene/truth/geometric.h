@@ -1,0 +1,54 @@
+#ifndef OBSCURA_SCENE_TRUTH_GEOMETRIC_H_
+#define OBSCURA_SCENE_TRUTH_GEOMETRIC_H_
+
+#include <cstdint>
+
+#include "obscura/falloff.h"
+#include "obscura/outputs.h"
+#include "obscura/reference.h"
+#include "scene/scenes/load_scene.h"
+
+namespace obscura::tools {
+
+// Ambient visibility on the real geometry, by ray tracing: the same integrals as those of the
+// screen-space reference, but rays meet the scene itself, also what the camera does not see.
+struct GeometricSettings {
+  Falloff falloff{};                               // any; exponential by default
+  int rays = 256;                                  // [1, 2^20] per pixel and kind of output
+  RayWeighting weighting = RayWeighting::kCosine;  // of visibility
+  int every = 1;  // [1, 1000]: trace pixels x, y with x % every == y % every == every / 2
+  bool interpolate = false;  // fill the others from them; else they become NaN
+  double offset = 0;         // world units by which rays start off the surface; 0: 1e-5 scene sizes
+  std::uint32_t seed = 1;
+};
+
+// Fills those outputs whose views are not empty, which are of the visible size.
+//
+// Receivers are the surface points of rendering.gbuffer at the pixel centres, lifted by
+// settings.offset along the G-buffer's normal. A ray that meets a surface at distance d, from
+// either side, has V = 1 - falloff(d). Directions are stratified, one ray in each of settings.rays
+// strata of equal weight; cosine-weighted ones give visibility and the cosine integral, uniform
+// ones the mean unoccluded direction, its cone angle acos(max(0, 2 |mean direction| - 1)), the
+// uniform integral, and visibility where weighting says so. standard_error is that of visibility,
+// as Hemisphere::standard_error gives it. Where nothing is open the bent normal is the
+// normal. Background pixels get what Outputs says.
+//
+// Same input, settings and seed: the same bits for any number of threads.
+Status trace_geometric(const Rendering& rendering, const GeometricSettings& settings,
+                       const Outputs& outputs, const RunOptions& options = {});
+
+template <FieldsOf<GeometricSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  visit_fields(s.falloff, v);
+  v(s.rays, Field{"rays", "", closed(1, 1 << 20), "Rays per pixel."});
+  v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
+  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace every N-th pixel in x and y only."});
+  v(s.interpolate, Field{"interpolate", "", {}, "Fill the pixels between; else they are NaN."});
+  v(s.offset, Field{"offset", "world units", at_least(0),
+                    "How far off the surface rays start; 0 is 1e-5 scene sizes."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+}
+
+}  // namespace obscura::tools
+
+#endif  // OBSCURA_SCENE_TRUTH_GEOMETRIC_H_

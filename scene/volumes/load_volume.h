@@ -1,0 +1,37 @@
+#ifndef OBSCURA_SCENE_VOLUMES_LOAD_VOLUME_H_
+#define OBSCURA_SCENE_VOLUMES_LOAD_VOLUME_H_
+
+#include <optional>
+
+#include "io/volumes/volume_image.h"
+#include "nlohmann/json.hpp"
+
+namespace obscura::tools {
+
+// What a .raw file does not say of itself: x fastest, little-endian unless `big_endian`.
+struct RawLayout {
+  std::array<int, 3> size{};
+  VoxelType type = VoxelType::kU8;
+  Double3 spacing{1, 1, 1};
+  bool big_endian = false;
+};
+
+// Whether load_volume would take the name: a procedural volume's, or an ending of a volume file.
+bool is_volume(const std::string& spec);
+
+// Loads volume:NAME?key=value&..., .nii, .nii.gz, .nrrd, .nhdr, .vdb or .raw.
+Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw,
+                   VolumeImage* image);
+
+// What the volume holds: format, size, type, spacing, place in the world, range, counts of values
+// that are not finite, histogram and Otsu's threshold.
+Status describe_volume(const VolumeImage& image, nlohmann::ordered_json* description);
+Status describe_volume(const std::string& spec, const std::optional<RawLayout>& raw,
+                       nlohmann::ordered_json* description);
+
+// The same as lines of text, with the histogram drawn.
+std::string volume_description_text(const nlohmann::ordered_json& description);
+
+}  // namespace obscura::tools
+
+#endif  // OBSCURA_SCENE_VOLUMES_LOAD_VOLUME_H_

@@ -1,0 +1,178 @@
+// From the sums of an interleaved pattern to results (interleaved.cpp): the edge-aware blur over the
+// m x m pixels that share the pattern, rows first, then columns, and directions and cones. Each group
+// does a tile of the image with its surroundings in shared memory.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "filters/edge_leaf.h"
+#include "math/slab_leaf.h"
+#define PASS_CONSTANTS float longest_edge;
+#include "gpu/view.glsl"
+#define DIRECTIONS_BINDING 7
+#include "gpu/visibility.glsl"
+
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(constant_id = 2) const int kReach = 2;              // 0: no blur
+layout(constant_id = 3) const bool kHalfOutermost = true;  // the outermost taps' weights
+layout(constant_id = 4) const int kChannels = 1;           // values that are blurred
+layout(constant_id = 5) const bool kOpen = true;           // open_sums holds the visibility
+layout(constant_id = 6) const bool kDirections = false;
+// The open share that goes with directions is the cosine-weighted visibility.
+layout(constant_id = 7) const bool kCosineOpen = false;
+layout(constant_id = 8) const bool kPaperCone = false;
+layout(constant_id = 9) const bool kUnsigned = false;
+layout(constant_id = 10) const int kFarthest = 0;  // entries of `farthest`; 0: edges are not bounded
+layout(constant_id = 11) const bool kNormals = true;  // else all are alike
+
+layout(binding = 2) readonly buffer Depth { float depth[]; };
+layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
+layout(binding = 4) readonly buffer Open { float open_sums[]; };
+layout(binding = 5) readonly buffer Directions { vec4 sums[]; };
+layout(binding = 6) readonly buffer Farthest { float farthest[]; };
+
+const int kTile = 16, kSide = kTile + 2 * kReach, kCells = kSide * kSide;
+const int kThreads = 128;
+shared float surface[kCells];  // linear on planes; 0: background
+shared float normal[3 * kCells];
+shared float value[kChannels * kCells];
+shared float blurred[kChannels * kTile * kSide];  // rows of kTile
+shared uint max_depth;
+
+// All that the tile reads.
+void load(ivec2 corner) {
+  for (int i = int(gl_LocalInvocationIndex); i < kCells; i += kThreads) {
+    const ivec2 p = corner + ivec2(i % kSide, i / kSide) - kReach;
+    const bool inside = p.x >= 0 && p.y >= 0 && p.x < view.visible_width && p.y < view.visible_height;
+    const float z = inside ? depth[(p.y + view.top) * view.width + p.x + view.left] : kInf;
+    surface[i] = z < kInf ? (view.orthographic != 0 ? z : 1.0 / z) : 0.0;
+    if (!(z < kInf)) continue;
+    const int at = p.y * view.visible_width + p.x;
+    const vec3 n = kNormals ? normals[at].xyz : vec3(0.0, 0.0, 1.0);
+    for (int c = 0; c < 3; ++c) normal[c * kCells + i] = n[c];
+    if (kOpen) value[i] = open_sums[at];
+    if (!kDirections) continue;
+    const vec4 v = sums[at];
+    for (int c = 0; c < 4; ++c) value[(kChannels - 4 + c) * kCells + i] = v[c];
+  }
+}
+
+vec3 normal_at(int i) { return vec3(normal[i], normal[kCells + i], normal[2 * kCells + i]); }
+
+float slope_at(int i, int step) {
+  const float s = surface[i], next = surface[i + step], last = surface[i - step];
+  const float after = next > 0.0 ? next - s : kInf, before = last > 0.0 ? s - last : kInf;
+  return surface_slope(after, before);
+}
+
+// Weight of tap k: by how near its surface lies to the continuation of the receiver's, and by how
+// alike the normals are.
+float tap_weight(int i, int k, int step, float slope, float per_edge, vec3 n) {
+  const float s = surface[i + k * step];
+  const float gap = (s - (slope * float(k) + surface[i])) * per_edge;
+  const float near = edge_weight(gap);
+  if (!(s > 0.0 && near > 0.0)) return 0.0;
+  const float alike = max(dot(n, normal_at(i + k * step)), 0.0);
+  const float sharp = alike * alike;
+  return near * sharp * sharp * (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
+}
+
+float edge() {
+  const float longest = kFarthest > 0 ? view.longest_edge * uintBitsToFloat(max_depth) : kInf;
+  return max(0.5 * min(view.radius, longest), 1e-30);
+}
+
+float per_edge_at(int i) {
+  return view.orthographic != 0 ? 1.0 / edge() : 1.0 / edge() / (surface[i] * surface[i]);
+}
+
+void blur_rows() {
+  for (int t = int(gl_LocalInvocationIndex); t < kTile * kSide; t += kThreads) {
+    const int i = t / kTile * kSide + t % kTile + kReach;
+    if (!(surface[i] > 0.0)) continue;
+    const float slope = slope_at(i, 1), per_edge = per_edge_at(i);
+    const vec3 n = normal_at(i);
+    float sum[kChannels], whole = 1.0;
+    for (int c = 0; c < kChannels; ++c) sum[c] = value[c * kCells + i];
+    for (int k = -kReach; k <= kReach; ++k) {
+      if (k == 0) continue;
+      const float w = tap_weight(i, k, 1, slope, per_edge, n);
+      whole += w;
+      if (!(w > 0.0)) continue;
+      for (int c = 0; c < kChannels; ++c) sum[c] += w * value[c * kCells + i + k];
+    }
+    for (int c = 0; c < kChannels; ++c) blurred[c * kTile * kSide + t] = sum[c] / whole;
+  }
+}
+
+void blur_column(int i, int t, out float result[kChannels]) {
+  for (int c = 0; c < kChannels; ++c) result[c] = blurred[c * kTile * kSide + t];
+  const float slope = slope_at(i, kSide), per_edge = per_edge_at(i);
+  const vec3 n = normal_at(i);
+  float whole = 1.0;
+  for (int k = -kReach; k <= kReach; ++k) {
+    if (k == 0) continue;
+    const float w = tap_weight(i, k, kSide, slope, per_edge, n);
+    whole += w;
+    if (!(w > 0.0)) continue;
+    for (int c = 0; c < kChannels; ++c) {
+      result[c] += w * blurred[c * kTile * kSide + t + k * kTile];
+    }
+  }
+  for (int c = 0; c < kChannels; ++c) result[c] /= whole;
+}
+
+void store_direction(ivec2 p, vec3 direction, float angle) {
+  const vec3 stored = kUnsigned ? 0.5 * direction + 0.5 : direction;
+  write_direction(p, vec4(stored, angle / 1.57079633));
+}
+
+// math/cone-inl.h, FinishCone.
+void finish_direction(ivec2 p, vec3 n, vec3 difference, float seen) {
+  float open = seen;
+  if (kCosineOpen) open = max(seen - 2.0 * dot(n, difference), 0.0);
+  const vec3 sum = 0.5 * open * n + difference;
+  const float square = dot(sum, sum), least = open * 1e-6;
+  vec3 direction = n;
+  float mean = 0.0;
+  if (square > least * least && open > 0.0) {
+    direction = sum * inversesqrt(square);
+    mean = sqrt(square) / max(open, 1e-37);
+  }
+  const float c = clamp(2.0 * mean - 1.0, 0.0, 1.0);
+  store_direction(p, direction, kPaperCone ? (1.0 - c) * 1.57079633 : fast_acos(c));
+}
+
+void main() {
+  if (kFarthest > 0 && gl_LocalInvocationIndex == 0) max_depth = 0;
+  const ivec2 corner = ivec2(gl_WorkGroupID.xy) * kTile;
+  load(corner);
+  barrier();
+  for (int i = int(gl_LocalInvocationIndex); i < kFarthest; i += kThreads) {
+    atomicMax(max_depth, floatBitsToUint(farthest[i]));
+  }
+  barrier();
+  if (kReach > 0) blur_rows();
+  barrier();
+  for (int y = int(gl_LocalInvocationID.y); y < kTile; y += kThreads / kTile) {
+    const ivec2 cell = ivec2(int(gl_LocalInvocationID.x), y), p = corner + cell;
+    if (p.x >= view.visible_width || p.y >= view.visible_height) continue;
+    const int i = (cell.y + kReach) * kSide + cell.x + kReach;
+    if (!(surface[i] > 0.0)) {
+      store_visibility(p, 1.0);
+      if (kDirections) store_direction(p, vec3(0.0, 0.0, 1.0), 1.57079633);
+      continue;
+    }
+    float result[kChannels];
+    if (kReach > 0) {
+      blur_column(i, (cell.y + kReach) * kTile + cell.x, result);
+    } else {
+      for (int c = 0; c < kChannels; ++c) result[c] = value[c * kCells + i];
+    }
+    store_visibility(p, result[kOpen ? 0 : kChannels - 1]);
+    if (kDirections) {
+      const int c = kChannels - 4;
+      finish_direction(p, normal_at(i), vec3(result[c], result[c + 1], result[c + 2]),
+                       result[kChannels - 1]);
+    }
+  }
+}

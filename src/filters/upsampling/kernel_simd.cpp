@@ -1,0 +1,98 @@
+#include <limits>
+
+#include "filters/upsampling/kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filters/upsampling/kernel_simd.cpp"
+#include "hwy/foreach_target.h"
+// After foreach_target.
+#include "hwy/highway.h"
+#include "math/fast-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace obscura {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// A neighbour whose normal is at right angles counts this much of one whose normal is the same.
+constexpr float kLeastAlike = 1e-3f;
+
+HWY_INLINE M IsSurface(V s) {
+  const D d;
+  return hn::And(hn::Gt(s, hn::Zero(d)), hn::Lt(s, hn::Inf(d)));
+}
+
+HWY_INLINE V Alike(const BetweenRow& row, int x, std::ptrdiff_t step) {
+  const D d;
+  V cosine = hn::Zero(d);
+  for (const float* normal : row.normal) {
+    cosine = hn::MulAdd(hn::LoadU(d, normal + x), hn::LoadU(d, normal + x + step), cosine);
+  }
+  const V square = hn::Mul(cosine, cosine);
+  return hn::MulAdd(square, square, hn::Set(d, kLeastAlike));
+}
+
+void Between(const BetweenRow& row, int width) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const M odd = hn::Gt(hn::Mul(hn::Iota(d, 0), hn::Set(d, 0.5f)),
+                       hn::Floor(hn::Mul(hn::Iota(d, 0), hn::Set(d, 0.5f))));
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
+    const float* surface = row.surface + x;
+    const V s0 = hn::LoadU(d, surface);
+    auto at = [&](bool there, std::ptrdiff_t step)
+                  HWY_ATTR { return there ? hn::LoadU(d, surface + step) : zero; };
+    const V before = at(row.before, -row.surface_step), after = at(row.after, row.surface_step);
+    const M has_before = IsSurface(before), has_after = IsSurface(after);
+    const V down = hn::Sub(s0, before), up = hn::Sub(after, s0);
+    // The nearer one goes on by its own slope; how far from it the other lies is what both slopes
+    // differ by.
+    const M nearer_after = hn::Or(hn::AndNot(has_before, has_after),
+                                  hn::And(has_after, hn::Lt(hn::Abs(up), hn::Abs(down))));
+    const V scale = row.orthographic ? one : hn::Max(s0, hn::Set(d, 1e-30f));
+    const V gap = hn::Div(hn::Sub(up, down), hn::Mul(scale, hn::Set(d, row.edge)));
+    const V near = hn::NegMulAdd(gap, gap, one);
+    V other = hn::IfThenElseZero(hn::Gt(near, zero), hn::Mul(near, near));
+    other = hn::IfThenElseZero(hn::And(has_before, has_after), other);
+    V w_before = hn::IfThenElse(nearer_after, other, one);
+    V w_after = hn::IfThenElse(nearer_after, one, other);
+    if (row.normal[0]) {
+      if (row.before) w_before = hn::Mul(w_before, Alike(row, x, -row.normal_step));
+      if (row.after) w_after = hn::Mul(w_after, Alike(row, x, row.normal_step));
+    }
+    const V share = hn::Div(w_after, hn::Add(w_before, w_after));
+    const M from_before = hn::Gt(w_before, zero), from_after = hn::Gt(w_after, zero);
+    for (int c = 0; c < row.channels; ++c) {
+      const float* values = row.values[c] + x;
+      const V a = row.before ? hn::LoadU(d, values - row.value_step) : zero;
+      const V b = row.after ? hn::LoadU(d, values + row.value_step) : zero;
+      // What does not count need not be a number.
+      const V mixed = hn::MulAdd(share, hn::Sub(b, a), a);
+      V v = hn::IfThenElse(from_before, hn::IfThenElse(from_after, mixed, a), b);
+      v = hn::IfThenElse(hn::Or(has_before, has_after), v, hn::Set(d, row.open[c]));
+      if (row.odd_only) v = hn::IfThenElse(odd, v, hn::LoadU(d, values));
+      hn::StoreU(v, d, row.out[c] + x);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace obscura
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace obscura {
+namespace {
+HWY_EXPORT(Between);
+}  // namespace
+
+void between_row(const BetweenRow& row, int width) { HWY_DYNAMIC_DISPATCH(Between)(row, width); }
+
+}  // namespace obscura
+#endif

@@ -1,0 +1,343 @@
+#include "screen/far_field/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "screen/far_field/directions.h"
+#include "screen/far_field/lines.h"
+#include "screen/far_field/plane.h"
+#include "screen/far_field/scan.h"
+#include "screen/far_field/slices.h"
+#include "screen/far_field/totals.h"
+
+namespace obscura {
+
+bool SettingText<NearStep>::parse(std::string_view text, NearStep* value) {
+  if (text == "adaptive") {
+    *value = NearStep::adaptive();
+    return true;
+  }
+  double number;
+  if (!parse_number(text, &number) || !closed(0.125, 8).contains(number)) return false;
+  *value = NearStep::of(static_cast<float>(number));
+  return true;
+}
+std::string SettingText<NearStep>::write(const NearStep& value) {
+  return value.px > 0 ? write_number(value.px, true) : "adaptive";
+}
+
+namespace far_field {
+namespace {
+
+constexpr int kRowsPerTask = 8;
+
+// The intervals of a segment for receivers of a row whose first is at texel u.
+int list_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
+                   int interval, int row, int u, bool finite, ScanBuffer* buffer,
+                   IntervalRead* reads) {
+  IntervalLines found[kMaxIntervals];
+  const int count =
+      find_intervals(direction, segment, layout, buffer->pyramid(), interval, row, u, found);
+  const int phases = buffer->phases();
+  // Of a line: its phase and its place among that phase's lines, also left of the first line.
+  auto phase_of = [&](int line) { return ((line % phases) + phases) % phases; };
+  auto place_of = [&](int line) { return (line - phase_of(line)) / phases; };
+  for (int i = 0; i < count; ++i) {
+    const auto& [level, strip, first, last, middle] = found[i];
+    reads[i] = {.from = {},
+                .to = {},
+                .first = place_of(first),
+                .last = place_of(last + 1),
+                .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
+                .line = {},
+                .middle = place_of(middle)};
+    if (finite) {
+      reads[i].line = buffer->raw(level, strip, phase_of(middle));
+    } else {
+      reads[i].from = buffer->sums(level, strip, phase_of(first));
+      reads[i].to = buffer->sums(level, strip, phase_of(last + 1));
+    }
+  }
+  return count;
+}
+
+// The near field's samples for receivers whose first is at texel u.
+void list_taps(const Plane& p, const Direction& direction, const Segment& segment, int u,
+               std::vector<TapRead>* taps) {
+  taps->clear();
+  for (const NearTap& tap : segment.taps) {
+    const std::ptrdiff_t step = direction.sign * p.lattice.stride();
+    const std::ptrdiff_t upper = tap.dv * step, lower = tap.wv > 0 ? upper + step : upper;
+    const std::ptrdiff_t left = p.lattice.offset(u + tap.du);
+    const std::ptrdiff_t right = p.lattice.offset(u + tap.du + 1);
+    taps->push_back({.upper = upper + left,
+                     .upper_next = upper + right,
+                     .lower = lower + left,
+                     .lower_next = lower + right,
+                     .nearest = (tap.wv >= 0.5f ? lower : upper) + (tap.wu >= 0.5f ? right : left),
+                     .wu = tap.wu,
+                     .wv = tap.wv,
+                     .along = tap.along,
+                     .centred = false});
+  }
+  for (std::size_t i = 0; i < taps->size(); ++i) (*taps)[i].centred = is_centred(segment, i);
+}
+
+class FarFieldMethod final : public Method {
+ public:
+  FarFieldMethod(const FarFieldSettings& settings, math::Rho rho)
+      : settings_(settings),
+        rho_(std::move(rho)),
+        directions_(make_directions(settings)),
+        phases_(phases_of(settings)),
+        margin_(sideways_reach(directions_, settings.interval) +
+                2 * PrefixSums::kPadding * phases_) {}
+
+  view::Needs needs() const override {
+    return {.normals = true, .back_depth = settings_.occluder.kind == OccluderKind::kBackDepth};
+  }
+  OutputKinds output_kinds() const override {
+    return {
+        .bent_normal = true, .cone_angle = true, .uniform_integral = true, .cosine_integral = true};
+  }
+
+  Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
+    wanted_ = {
+        .uniform = !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty(),
+        .cosine = !o.cosine_integral.empty()};
+    if (o.visibility.empty() && !wanted_.uniform && !wanted_.cosine) return {};
+    Executor& executor = context.executor;
+    const PassTimer& timer = context.timer;
+    if (grouped()) timer.time("average", [&] { average_groups(g, executor, &groups_); });
+    timer.time("fill", [&] { prepare(g, executor); });
+    Progress progress(static_cast<std::int64_t>(directions_.size()), context.progress);
+    const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
+                                     settings_.line_step};
+    for (const Direction& direction : directions_) {
+      Plane& plane = planes_[direction.transposed];
+      timer.time("scan", [&] { scan(plane, direction, scan_settings, executor, &buffer_); });
+      timer.time("sum", [&] { sum(plane, direction, scan_settings, executor, &buffer_); });
+      timer.time("evaluate", [&] { evaluate(direction, executor, &plane); });
+      if (!progress.advance()) return {StatusCode::kCancelled, "stopped by the caller"};
+    }
+    timer.time("collect", [&] { collect(planes_, &Plane::sums, wanted_, executor, &totals_); });
+    if (separable()) {
+      timer.time("gather", [&] {
+        collect(planes_, &Plane::far_sums, wanted_, executor, &spare_);
+        gather(groups_, spare_, wanted_, executor, &totals_);
+      });
+    }
+    if (grouped() && settings_.blur) {
+      timer.time("blur", [&] { blur_selectively(groups_, wanted_, executor, &totals_, &spare_); });
+    }
+    timer.time("write", [&] { finish(g, totals_, settings_.cone, executor, o); });
+    return {};
+  }
+
+ private:
+  bool separable() const { return settings_.separable == 3; }
+  bool grouped() const { return separable() || settings_.jitter; }
+
+  void prepare(const view::Geometry& g, Executor& executor) {
+    const ReceiverSource pixels{
+        &g.depth, {&g.normal_x, &g.normal_y, &g.normal_z}, g.guard_band.left, g.guard_band.top};
+    const ReceiverSource means{
+        &groups_.depth, {&groups_.normal[0], &groups_.normal[1], &groups_.normal[2]}, 0, 0};
+    for (bool transposed : {false, true}) {
+      Plane& p = planes_[transposed];
+      fill_plane(g, settings_.occluder, transposed, margin_, phases_, executor, &p);
+      fill_receivers(pixels, p, transposed, executor, &p.own);
+      auto clear = [&](SumImages* sums) {
+        for (Channel c : wanted_.channels()) {
+          sums->clear(c, p.visible_width, p.visible_height, phases_, executor);
+        }
+      };
+      clear(&p.sums);
+      if (!separable()) continue;
+      fill_receivers(means, p, transposed, executor, &p.averaged);
+      clear(&p.far_sums);
+    }
+  }
+
+  const std::vector<TapRead>& taps_of(int row, int phase, std::size_t segment) const {
+    return taps_[((settings_.jitter ? row % 3 : 0) * phases_ + phase) * settings_.segments +
+                 segment];
+  }
+  void prepare_taps(const Direction& direction, const Plane& p) {
+    const int row_cells = settings_.jitter ? 3 : 1;
+    taps_.resize(static_cast<std::size_t>(row_cells) * phases_ * settings_.segments);
+    auto taps = taps_.begin();
+    for (int row = 0; row < row_cells; ++row) {
+      for (int phase = 0; phase < phases_; ++phase) {
+        for (const Segment& segment : direction.segments_of(cell_of(direction, row, phase))) {
+          list_taps(p, direction, segment, phase + p.left, &*taps++);
+        }
+      }
+    }
+  }
+
+  void evaluate(const Direction& direction, Executor& executor, Plane* plane) {
+    const LineLayout layout(plane->width, plane->height, direction, settings_.line_step);
+    const int rows = plane->visible_height, phases = std::min(phases_, plane->visible_width);
+    prepare_taps(direction, *plane);
+    executor.parallel_for((rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int) {
+      const int end = std::min(rows, (task + 1) * kRowsPerTask);
+      for (int y = task * kRowsPerTask; y < end; ++y) {
+        for (int phase = 0; phase < phases; ++phase) {
+          evaluate_row(direction, layout, y, phase, plane);
+        }
+      }
+    });
+  }
+
+  void evaluate_row(const Direction& direction, const LineLayout& layout, int y, int phase,
+                    Plane* plane) {
+    Plane& p = *plane;
+    const int v = y + p.top, u = phase + p.left, row = direction.sign > 0 ? v : p.height - 1 - v;
+    const int interval = settings_.interval;
+    const int near = near_rows(direction, interval, row, p.height);
+    const int cell = cell_of(direction, y, phase);
+    const bool far = !separable() || direction.group == cell;
+    const std::vector<Segment>& segments = direction.segments_of(cell);
+    IntervalRead intervals[kMaxIntervals];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& segment = segments[i];
+      SliceRow job{.plane = &p,
+                   .receivers = &p.own,
+                   .rho = &rho_,
+                   .sums = SliceSums::kVisibility,
+                   .chord = settings_.profile == SlabProfile::kAdaptiveChord,
+                   .far_alone = false,
+                   .sign = direction.sign,
+                   .row = y,
+                   .column = phase,
+                   .count = (p.visible_width - phase + phases_ - 1) / phases_,
+                   .segment = &segment,
+                   .texels = p.lattice.row(v),
+                   .backs = p.finite ? p.back.row(v) : nullptr,
+                   .taps = taps_of(y, phase, i).data(),
+                   .tap_count = count_taps(segment, row, near, p.height),
+                   .intervals = intervals,
+                   .interval_count = 0,
+                   .phase_lines = buffer_.phase_lines(),
+                   .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
+                   .slack = join_slack(p),
+                   .dither = dither(direction, segment),
+                   .out = {}};
+      if (far) {
+        job.interval_count = list_intervals(direction, segment, layout, interval, row, u, p.finite,
+                                            &buffer_, intervals);
+      }
+      if (!separable()) {
+        add(job, &p.sums);
+        continue;
+      }
+      if (far) {
+        SliceRow shared = job;
+        shared.receivers = &p.averaged;
+        shared.far_alone = true;
+        add(shared, &p.far_sums);
+        job.interval_count = 0;
+      }
+      add(job, &p.sums);
+    }
+  }
+
+  // The sums that are wanted, in one run over the slice or in two.
+  void add(SliceRow job, SumImages* to) {
+    auto row = [&](int channel) { return to->channel[channel].at(job.row, job.column); };
+    auto run = [&](SliceSums sums, bool obscurance, int vector) {
+      job.sums = sums;
+      job.out[0] = obscurance ? row(kObscurance) : nullptr;
+      for (int i = 0; vector != kObscurance && i < (sums == SliceSums::kUniform ? 4 : 3); ++i) {
+        job.out[1 + i] = row(vector + i);
+      }
+      job.plane->finite ? add_matter_slices(job) : add_slices(job);
+    };
+    if (wanted_.uniform) run(SliceSums::kUniform, true, kUniformVector);
+    if (wanted_.cosine) run(SliceSums::kCosine, !wanted_.uniform, kCosineVector);
+    if (!wanted_.uniform && !wanted_.cosine) run(SliceSums::kVisibility, true, kObscurance);
+  }
+
+  const FarFieldSettings settings_;
+  const math::Rho rho_;
+  const std::vector<Direction> directions_;
+  const int phases_, margin_;
+  WantedSums wanted_;
+  Plane planes_[2];
+  Groups groups_;
+  Totals totals_, spare_;
+  ScanBuffer buffer_;
+  std::vector<std::vector<TapRead>> taps_;  // of one direction; see taps_of()
+};
+
+}  // namespace
+}  // namespace far_field
+
+namespace {
+
+FarFieldSettings with_preset(FarFieldSettings s) {
+  switch (s.preset) {
+    case FarFieldPreset::kNone:
+      break;
+    case FarFieldPreset::kFast:
+      s.directions = 8;
+      s.segments = 1;
+      s.near_step = NearStep::of(1);
+      break;
+    case FarFieldPreset::kBalanced:
+      s.directions = 16;
+      s.segments = 1;
+      s.near_step = NearStep::of(0.5f);
+      break;
+    case FarFieldPreset::kHigh:
+      s.directions = 16;
+      s.segments = 3;
+      s.near_step = NearStep::of(0.25f);
+      break;
+  }
+  return s;
+}
+
+}  // namespace
+
+Status resolve_far_field(const FarFieldSettings& given, FarFieldSettings* resolved,
+                         math::Rho* rho) {
+  const FarFieldSettings settings = with_preset(given);
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (Status s = validate(settings.falloff); !s.ok()) return s;
+  if (Status s = validate(settings.occluder); !s.ok()) return s;
+  if (settings.receiver_slope == 0) {
+    return invalid_argument("receiver_slope is 0; it must be -1 or 1");
+  }
+  const float step = settings.near_step.px;
+  if (step != 0 && !(step >= 0.125f && step <= 8)) {
+    return invalid_argument(
+        text("near_step is ", step, "; it must be in [0.125, 8], or 0 for adaptive"));
+  }
+  if (settings.separable == 2) return invalid_argument("separable is 2; it must be 1 or 3");
+  if (settings.separable == 3 && settings.directions % far_field::kCells != 0) {
+    return invalid_argument(text("directions is ", settings.directions,
+                                 "; with separable 3 it must be a multiple of 9, such as 18"));
+  }
+  if (settings.separable == 3 && settings.jitter) {
+    return invalid_argument("jitter and separable 3 exclude each other: both share out 3x3 pixels");
+  }
+  if (settings.occluder.kind == OccluderKind::kLayers) {
+    return unsupported("the far field takes the occluders solid, thickness and back-depth");
+  }
+  if (Status s = math::make_rho(settings.falloff, rho); !s.ok()) return s;
+  *resolved = settings;
+  return {};
+}
+
+Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* method) {
+  FarFieldSettings settings;
+  math::Rho rho;
+  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
+  *method = std::make_unique<far_field::FarFieldMethod>(settings, std::move(rho));
+  return {};
+}
+
+}  // namespace obscura

@@ -1,0 +1,118 @@
+#include "screen/volumetric/point/screen_pattern.h"
+
+#include <algorithm>
+
+#include "core/reflection_noise.h"
+#include "core/text.h"
+#include "filters/interleaved/interleaved.h"
+#include "screen/volumetric/point/screen_pattern_kernel.h"
+#include "screen/volumetric/volumetric.h"
+
+namespace obscura {
+namespace {
+
+constexpr int kRowsPerTask = 8;
+
+class ScreenPointMethod final : public Method {
+ public:
+  ScreenPointMethod(const PointSettings& settings, const ScreenPatternFrame& frame, int width,
+                    int height)
+      : settings_(settings), frame_(frame) {
+    if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
+    sums_.resize(width, height);
+  }
+
+  view::Needs needs() const override { return {.normals = true, .works_without_normals = true}; }
+  OutputKinds output_kinds() const override {
+    return {.bent_normal = true, .cone_angle = true, .uniform_integral = true};
+  }
+
+  Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
+    const bool directions =
+        !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty();
+    if (directions && !g.has_normals) {
+      return unsupported("bent normals need normals; normal_use is none");
+    }
+    if (!directions && o.visibility.empty()) return {};
+    frame_.view = view::make_tap_frame(g, frame_.view.radius);
+    frame_.view.noise_x = noise_.x();
+    frame_.view.noise_y = noise_.y();
+    bool cancelled = false;
+    context.timer.time("sample", [&] { cancelled = !sample(g, directions, context); });
+    if (cancelled) return {StatusCode::kCancelled, "stopped by the caller"};
+    context.timer.time("blur", [&] {
+      sums_.resolve(g,
+                    {.sums = directional::Sums::kUniform,
+                     .directions = directions,
+                     .interleave = settings_.blur ? kScreenPatternInterleave : 1,
+                     .edge = 0.5f * frame_.view.radius,
+                     .paper_cone = false},
+                    o, context.executor);
+    });
+    return {};
+  }
+
+ private:
+  // False: stopped by the caller.
+  bool sample(const view::Geometry& g, bool directions, const RunContext& context) {
+    const int width = g.visible_width(), height = g.visible_height();
+    const int channels = directions ? directional::kChannels : 1;
+    Progress progress(height, context.progress);
+    const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
+    context.executor.parallel_for(tasks, [&](int task, int) {
+      if (progress.cancelled()) return;
+      const int first = task * kRowsPerTask, end = std::min(height, first + kRowsPerTask);
+      for (int y = first; y < end; ++y) {
+        float* out[directional::kChannels] = {};
+        for (int c = 0; c < channels; ++c) out[c] = sums_.row(c, y);
+        screen_pattern_row(frame_, y, width, out);
+        sums_.close_row(channels, width, y);
+      }
+      progress.advance(end - first);
+    });
+    return !progress.cancelled();
+  }
+
+  const PointSettings settings_;
+  ScreenPatternFrame frame_;
+  ReflectionNoise noise_;
+  directional::InterleavedSums sums_;
+};
+
+}  // namespace
+
+Status make_screen_pattern_frame(const PointSettings& settings, ScreenPatternFrame* frame) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (settings.samples > kMaxDiskSamples) {
+    return invalid_argument(text("samples is ", settings.samples,
+                                 "; the screen pattern has sizes in [1, ", kMaxDiskSamples, "]"));
+  }
+  if (settings.occluder.kind != OccluderKind::kSolid) {
+    return invalid_argument(
+        "occluder is thickness; the screen pattern looks at surface points only and takes solid");
+  }
+  ScreenPatternFrame& f = *frame;
+  f.view.radius = view::tap_radius(settings.falloff.radius);
+  f.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
+  const auto pattern = disk_pattern(settings.samples, false);
+  double sum = 0;
+  for (const DiskSample& s : pattern) sum += s.weight_constant;
+  f.samples = static_cast<int>(pattern.size());
+  for (int i = 0; i < f.samples; ++i) {
+    f.x[i] = pattern[i].x;
+    f.y[i] = pattern[i].y;
+    f.weight[i] = static_cast<float>(pattern[i].weight_constant / sum);
+  }
+  return {};
+}
+
+Status make_screen_point(const PointSettings& settings, int width, int height,
+                         std::unique_ptr<Method>* method) {
+  ScreenPatternFrame frame;
+  if (Status s = make_screen_pattern_frame(settings, &frame); !s.ok()) return s;
+  *method = std::make_unique<ScreenPointMethod>(settings, frame, width, height);
+  return {};
+}
+
+}  // namespace obscura

@@ -1,0 +1,27 @@
+#include "screen/volumetric/volumetric.h"
+
+#include <cmath>
+
+#include "core/text.h"
+
+namespace obscura {
+
+Status check_volumetric(const Falloff& falloff, const Occluder& occluder) {
+  if (Status s = validate(falloff); !s.ok()) return s;
+  if (falloff.kind != FalloffKind::kConstant && falloff.kind != FalloffKind::kQuadratic) {
+    return invalid_argument(text(
+        "falloff is ", static_cast<int>(falloff.kind) < 4 ? enum_name(falloff.kind) : "a curve",
+        "; volumetric obscurance takes constant or quadratic"));
+  }
+  if (std::isinf(falloff.radius)) {
+    return invalid_argument("radius is inf; volumetric obscurance needs a finite sphere");
+  }
+  if (Status s = validate(occluder); !s.ok()) return s;
+  if (occluder.kind != OccluderKind::kSolid && occluder.kind != OccluderKind::kThickness) {
+    return invalid_argument(text("occluder is ", enum_name(occluder.kind),
+                                 "; volumetric obscurance takes solid or thickness:T"));
+  }
+  return {};
+}
+
+}  // namespace obscura

@@ -12,10 +12,10 @@ expect_failure() {
   fi
 }
 "$here/check_layers.sh" "$tree" >/dev/null
-echo '#include "screen/volumetric/point/plan.h"' >"$tree/src/screen/volumetric/line/cpu.cpp"
+echo '#include "screen/point/point.h"' >"$tree/src/screen/line/line.cpp"
 expect_failure 'an estimator includes another'
-echo '#include "io/images/image.h"' >"$tree/src/screen/volumetric/line/cpu.cpp"
+echo '#include "support/image.h"' >"$tree/src/screen/line/line.cpp"
 expect_failure 'the library includes support'
 echo '#include "view/geometry.h"' >"$tree/src/core/a.cpp"
-: >"$tree/src/screen/volumetric/line/cpu.cpp"
+: >"$tree/src/screen/line/line.cpp"
 expect_failure 'core includes view'

@@ -14,7 +14,7 @@ struct ScreenPatternFrame;
 inline constexpr int kScreenPatternInterleave = 4;
 
 // Point samples on the screen (PointPattern::kScreen), with their own blur if settings.blur:
-// neighbours whose patterns differ are put together as in directional/interleaved.h. `width` x
+// neighbours whose patterns differ are put together as in filters/interleaved. `width` x
 // `height` is the whole depth image. Taps are as in point.h.
 //
 // Directions: the surface point of each sample that occludes tells the direction that is lost, so

@@ -36,6 +36,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<AreaSettings> {
+  static constexpr const char* name = "area";
+  static constexpr const char* summary =
+      "Volumetric obscurance by area samples (Loos and Sloan 2010)";
+  static constexpr const char* page = "docs/methods/volumetric-obscurance.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

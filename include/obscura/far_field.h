@@ -92,6 +92,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<FarFieldSettings> {
+  static constexpr const char* name = "far-field";
+  static constexpr const char* summary =
+      "Far-field ambient obscurance: the whole depth image (Timonen 2013)";
+  static constexpr const char* page = "docs/methods/far-field.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

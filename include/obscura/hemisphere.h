@@ -49,6 +49,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<HemisphereSettings> {
+  static constexpr const char* name = "hemisphere";
+  static constexpr const char* summary =
+      "Directions marched in depth: bent normals and cones (Klehm et al. 2011)";
+  static constexpr const char* page = "docs/methods/bent-normals-and-cones.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

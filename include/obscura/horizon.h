@@ -58,6 +58,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<HorizonSettings> {
+  static constexpr const char* name = "horizon";
+  static constexpr const char* summary =
+      "Horizon-based ambient occlusion (Bavoil 2008) and cosine-weighted slices";
+  static constexpr const char* page = "docs/methods/far-field.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

@@ -49,6 +49,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<LineSettings> {
+  static constexpr const char* name = "line";
+  static constexpr const char* summary =
+      "Volumetric obscurance by line samples (Loos and Sloan 2010)";
+  static constexpr const char* page = "docs/methods/volumetric-obscurance.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

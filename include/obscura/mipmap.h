@@ -33,6 +33,14 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.pyramid, Field{"pyramid", "", {}, "What a texel of a lower resolution holds."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<MipmapSettings> {
+  static constexpr const char* name = "mipmap";
+  static constexpr const char* summary =
+      "Ambient obscurance from a depth pyramid, the far field's rival";
+  static constexpr const char* page = "docs/methods/far-field.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

@@ -46,6 +46,13 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<PointSettings> {
+  static constexpr const char* name = "point";
+  static constexpr const char* summary = "Volumetric obscurance by point samples (Mittring 2007)";
+  static constexpr const char* page = "docs/methods/volumetric-obscurance.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

@@ -54,6 +54,13 @@ void visit_fields(Self& s, Visitor&& v) {
                        "thickness, 1 for back-depth and layers."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
+template <>
+struct MethodInfo<ReferenceSettings> {
+  static constexpr const char* name = "ray-traced";
+  static constexpr const char* summary = "The truth of the depth field itself, by ray tracing";
+  static constexpr const char* page = "docs/methods/reference.md";
+  static constexpr bool on_vulkan = false;
+};
 
 Status validate(const ReferenceSettings& settings);
 

@@ -70,6 +70,14 @@ const char* enum_name(E value) {
   return EnumNames<E>::names[static_cast<int>(value)];
 }
 
+// What is said of a method. Specialised beside each method's settings, with
+//   static constexpr const char* name;     as the command line knows it: "far-field"
+//   static constexpr const char* summary;  one line, without a full stop
+//   static constexpr const char* page;     of the documentation: "docs/methods/far-field.md"
+//   static constexpr bool on_vulkan;       whether vulkan::Recorder takes it
+template <class Settings>
+struct MethodInfo;
+
 // How a field's type that is neither number, flag nor enumeration is written as text. Specialised
 // beside each such type with `form` (its grammar, for help), `parse` (true on success) and `write`.
 template <class T>

@@ -6,6 +6,7 @@
 #include "obscura/falloff.h"
 #include "obscura/outputs.h"
 #include "obscura/reference.h"
+#include "obscura/run_options.h"
 #include "scene/scenes/load_scene.h"
 
 namespace obscura::tools {
@@ -50,5 +51,18 @@ void visit_fields(Self& s, Visitor&& v) {
 }
 
 }  // namespace obscura::tools
+
+namespace obscura {
+
+template <>
+struct MethodInfo<tools::GeometricSettings> {
+  static constexpr const char* name = "geometric";
+  static constexpr const char* summary =
+      "The truth on the real geometry of a scene or mesh, by ray tracing";
+  static constexpr const char* page = "docs/scenes.md";
+  static constexpr bool on_vulkan = false;
+};
+
+}  // namespace obscura
 
 #endif  // OBSCURA_SCENE_TRUTH_GEOMETRIC_H_

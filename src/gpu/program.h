@@ -93,14 +93,10 @@ Geometry add_geometry(const FrameShape& shape, bool normals, Program* program);
 // Adds where matter ends, linear depth (FrameShape::back_depth), or gives the program's own region.
 int add_back_depth(const FrameShape& shape, Program* program);
 
-// In <method>_program.cpp.
-Status make_program(const AreaSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const HemisphereSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const FarFieldSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const HorizonSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const MipmapSettings& settings, const FrameShape& shape, Program* program);
-Status make_program(const PointSettings& settings, const FrameShape& shape, Program* program);
+// The passes of a method, or a refusal of its settings. The gpu.cpp of each method holds the
+// specialisation for its settings, if MethodInfo says that it runs on Vulkan.
+template <class Settings>
+Status make_program(const Settings& settings, const FrameShape& shape, Program* program);
 
 }  // namespace obscura::vulkan
 

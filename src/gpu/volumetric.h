@@ -44,19 +44,14 @@ void add_sampling(Pass pass, std::span<const std::uint32_t> constants, const Fra
 // The edge-aware blur (filters/bilateral.h) from a region to the frame's visibility.
 void add_blur(const FrameShape& shape, const Geometry& g, int region, float edge, Program* program);
 
-// The passes of a method of volumetric obscurance with what may be around it: a second radius and
-// the blur, as make_volumetric in screen/estimator.cpp. sample(settings, target) adds the passes of
-// one radius.
-template <class Settings, class Sample>
-void add_volumetric(const Settings& s, const FrameShape& shape, const Geometry& g, Sample sample,
-                    Program* program) {
+// The passes of a method of volumetric obscurance with what may be around it: a second sphere and
+// the blur. sample(frame, target) adds the passes of one sphere of the plan.
+template <class Settings, class Plan, class Sample>
+void add_volumetric(const Settings& s, const Plan& plan, const FrameShape& shape, const Geometry& g,
+                    Sample sample, Program* program) {
   const VolumetricTargets targets(shape, s.dual, s.blur, program);
-  sample(s, targets.first());
-  if (s.dual.second_radius) {
-    Settings other = s;
-    other.falloff.radius = *s.dual.second_radius;
-    sample(other, targets.second());
-  }
+  sample(plan.first, targets.first());
+  if (plan.second) sample(*plan.second, targets.second());
   if (s.blur) add_blur(shape, g, targets.region(), s.falloff.radius, program);
 }
 

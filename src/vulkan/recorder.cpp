@@ -67,10 +67,10 @@ Status program_of(const Settings& settings, const FrameShape& shape, Program* pr
           program);
     }
   }
-  if constexpr (requires { make_program(settings, shape, program); }) {
+  if constexpr (MethodInfo<Settings>::on_vulkan) {
     return make_program(settings, shape, program);
   } else {
-    return unsupported("this method does not run on Vulkan");
+    return unsupported(text("the method ", MethodInfo<Settings>::name, " does not run on Vulkan"));
   }
 }
 

@@ -68,14 +68,13 @@ struct Batch {
 
 class FarFieldProgram {
  public:
-  FarFieldProgram(const FarFieldSettings& settings, const math::Rho& rho, const FrameShape& shape,
-                  Program* program)
-      : settings_(settings),
-        rho_(rho),
+  FarFieldProgram(const FarFieldPlan& plan, const FrameShape& shape, Program* program)
+      : settings_(plan.settings),
+        rho_(plan.rho),
         shape_(shape),
-        directions_(far_field::make_directions(settings)),
-        phases_(far_field::phases_of(settings)),
-        margin_(far_field::sideways_reach(directions_, settings.interval)),
+        directions_(plan.directions),
+        phases_(plan.phases),
+        margin_(plan.reach),
         sums_(shape.directions == Directions::kNone ? SliceSums::kVisibility : SliceSums::kUniform),
         program_(program) {}
 
@@ -570,12 +569,12 @@ Status check(const FarFieldSettings& s, const FrameShape& shape) {
 
 }  // namespace
 
+template <>
 Status make_program(const FarFieldSettings& given, const FrameShape& shape, Program* program) {
-  FarFieldSettings settings;
-  math::Rho rho;
-  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
-  if (Status s = check(settings, shape); !s.ok()) return s;
-  FarFieldProgram(settings, rho, shape, program).build();
+  FarFieldPlan plan;
+  if (Status s = make_plan(given, &plan); !s.ok()) return s;
+  if (Status s = check(plan.settings, shape); !s.ok()) return s;
+  FarFieldProgram(plan, shape, program).build();
   return {};
 }
 

@@ -20,9 +20,10 @@ std::vector<float> tables_of(const hemisphere::Frame& f) {
 
 }  // namespace
 
+template <>
 Status make_program(const HemisphereSettings& settings, const FrameShape& shape, Program* program) {
   hemisphere::Frame f;
-  if (Status s = make_hemisphere_frame(settings, &f); !s.ok()) return s;
+  if (Status s = make_plan(settings, &f); !s.ok()) return s;
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("hemisphere needs normals; normal_use is none");
   }

@@ -24,10 +24,11 @@ std::vector<float> tables_of(const horizon::Frame& f, const math::Rho& rho) {
 
 }  // namespace
 
+template <>
 Status make_program(const HorizonSettings& settings, const FrameShape& shape, Program* program) {
-  horizon::Frame f;
-  math::Rho rho;
-  if (Status s = make_horizon_frame(settings, &rho, &f); !s.ok()) return s;
+  HorizonPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  const auto& [rho, f] = plan;
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("horizon needs normals; normal_use is none");
   }

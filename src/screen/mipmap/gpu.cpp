@@ -2,7 +2,6 @@
 
 #include "gpu/program.h"
 #include "gpu/quads.h"
-#include "screen/mipmap/kernel.h"
 #include "screen/mipmap/plan.h"
 #include "shaders/mipmap.h"
 #include "shaders/mipmap_pyramid.h"
@@ -18,9 +17,10 @@ struct Tables {
   int level_count = 0, step_count = 0, texels = 0;  // of levels 1 and on
 };
 
-Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const FrameShape& shape) {
+Tables make_tables(const MipmapSettings& settings, const MipmapPlan& plan,
+                   const FrameShape& shape) {
   Tables t;
-  t.rho = t.quads.add_floats(rho.table);
+  t.rho = t.quads.add_floats(plan.rho.table);
   t.levels = t.quads.size();
   t.level_count = std::min(mipmap_level_count(shape.width, shape.height), kMaxMipmapLevels);
   int width = shape.width, height = shape.height;
@@ -31,7 +31,7 @@ Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const F
     height = (height + 1) / 2;
   }
   t.directions = t.quads.size();
-  for (const MipmapDirection& d : mipmap_directions(settings.directions)) {
+  for (const MipmapDirection& d : plan.directions) {
     t.quads.add(bits(d.u), bits(d.v), bits(d.low_u), bits(d.low_v));
     t.quads.add(bits(d.high_u), bits(d.high_v), 0, 0);
   }
@@ -61,18 +61,20 @@ void add_pyramid(const FrameShape& shape, const Tables& tables, bool mean, int d
 
 }  // namespace
 
+template <>
 Status make_program(const MipmapSettings& settings, const FrameShape& shape, Program* program) {
-  math::Rho rho;
-  if (Status s = check_mipmap(settings, &rho); !s.ok()) return s;
+  MipmapPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (shape.directions != Directions::kNone) return unsupported("mipmap gives no directions");
   if (shape.normal_use == NormalUse::kNone) {
     return unsupported("mipmap needs normals; normal_use is none");
   }
   const Geometry g = add_geometry(shape, true, program);
-  const Tables t = make_tables(settings, rho, shape);
+  const Tables t = make_tables(settings, plan, shape);
   program->tables = t.quads.words();
   program->table_region = program->add_region(program->tables.size() * sizeof(float));
   const int pyramid = program->add_region(std::max(t.texels, 1) * sizeof(float));
+  const math::Rho& rho = plan.rho;
   const bool mean = settings.pyramid == DepthPyramid::kAverage;
   add_pyramid(shape, t, mean, g.depth, pyramid, program);
   program->passes.push_back(

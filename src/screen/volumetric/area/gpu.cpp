@@ -2,9 +2,7 @@
 
 #include "core/reflection_noise.h"
 #include "gpu/volumetric.h"
-#include "screen/volumetric/area/kernel.h"
 #include "screen/volumetric/area/plan.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/area.h"
 #include "shaders/moments.h"
 
@@ -66,9 +64,9 @@ Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, Program* program
   return pyramid;
 }
 
-void add_area(const AreaSettings& settings, const FrameShape& shape, const Geometry& g,
-              const Pyramid& pyramid, const VisibilityTarget& target, Program* program) {
-  const AreaFrame f = area_frame(settings);
+void add_area(const AreaSettings& settings, const AreaFrame& f, const FrameShape& shape,
+              const Geometry& g, const Pyramid& pyramid, const VisibilityTarget& target,
+              Program* program) {
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.lateral, f.extent, f.half, f.weight, f.level}) {
@@ -88,18 +86,18 @@ void add_area(const AreaSettings& settings, const FrameShape& shape, const Geome
 
 }  // namespace
 
+template <>
 Status make_program(const AreaSettings& settings, const FrameShape& shape, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  AreaPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (shape.directions != Directions::kNone) return unsupported("area gives no directions");
   const Geometry g = add_geometry(shape, shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, false, program);
   const Pyramid pyramid = add_pyramid(shape, g, program);
   add_volumetric(
-      settings, shape, g,
-      [&](const AreaSettings& s, const VisibilityTarget& target) {
-        add_area(s, shape, g, pyramid, target, program);
+      settings, plan, shape, g,
+      [&](const AreaFrame& f, const VisibilityTarget& target) {
+        add_area(settings, f, shape, g, pyramid, target, program);
       },
       program);
   return {};

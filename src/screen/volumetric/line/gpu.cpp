@@ -1,16 +1,13 @@
 #include "core/reflection_noise.h"
 #include "gpu/volumetric.h"
-#include "screen/volumetric/line/kernel.h"
 #include "screen/volumetric/line/plan.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/line.h"
 
 namespace obscura::vulkan {
 namespace {
 
-void add_line(const LineSettings& settings, const FrameShape& shape, const Geometry& g,
-              const VisibilityTarget& target, Program* program) {
-  const LineFrame f = line_frame(settings, disk_pattern(settings.samples, settings.center));
+void add_line(const LineSettings& settings, const LineFrame& f, const FrameShape& shape,
+              const Geometry& g, const VisibilityTarget& target, Program* program) {
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.lateral, f.extent, f.half, f.weight}) {
@@ -26,10 +23,10 @@ void add_line(const LineSettings& settings, const FrameShape& shape, const Geome
 
 }  // namespace
 
+template <>
 Status make_program(const LineSettings& settings, const FrameShape& shape, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  LinePlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (shape.directions != Directions::kNone) return unsupported("line gives no directions");
   const bool normals = shape.normal_use != NormalUse::kNone;
   if (settings.sphere == SphereKind::kTangent && !normals) {
@@ -38,9 +35,9 @@ Status make_program(const LineSettings& settings, const FrameShape& shape, Progr
   const Geometry g = add_geometry(shape, normals, program);
   add_reflections(settings.rotate, settings.seed, false, program);
   add_volumetric(
-      settings, shape, g,
-      [&](const LineSettings& s, const VisibilityTarget& target) {
-        add_line(s, shape, g, target, program);
+      settings, plan, shape, g,
+      [&](const LineFrame& f, const VisibilityTarget& target) {
+        add_line(settings, f, shape, g, target, program);
       },
       program);
   return {};

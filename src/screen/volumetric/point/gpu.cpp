@@ -2,20 +2,16 @@
 
 #include "core/reflection_noise.h"
 #include "filters/interleaved/gpu.h"
-#include "screen/volumetric/point/kernel.h"
 #include "screen/volumetric/point/plan.h"
 #include "screen/volumetric/point/screen_pattern.h"
-#include "screen/volumetric/point/screen_pattern_kernel.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/point.h"
 #include "shaders/screen_pattern.h"
 
 namespace obscura::vulkan {
 namespace {
 
-void add_ball(const PointSettings& settings, const FrameShape& shape, const Geometry& g,
-              const VisibilityTarget& target, Program* program) {
-  const PointFrame f = point_frame(settings, ball_pattern(settings.samples));
+void add_ball(const PointSettings& settings, const PointFrame& f, const FrameShape& shape,
+              const Geometry& g, const VisibilityTarget& target, Program* program) {
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.z, f.weight}) pattern.push_back(column[i]);
@@ -56,10 +52,8 @@ void add_screen(const PointSettings& settings, const FrameShape& shape, const Ge
 }
 
 // The screen pattern blurs by itself: each radius is blurred before they are combined.
-Status make_screen_program(const PointSettings& settings, const FrameShape& shape,
-                           Program* program) {
-  ScreenPatternFrame f;
-  if (Status s = make_screen_pattern_frame(settings, &f); !s.ok()) return s;
+Status make_screen_program(const PointSettings& settings, const Spheres<ScreenPatternFrame>& plan,
+                           const FrameShape& shape, Program* program) {
   const bool directions = shape.directions != Directions::kNone;
   if (directions) {
     if (settings.dual.second_radius) return unsupported("two radii give no directions");
@@ -71,21 +65,19 @@ Status make_screen_program(const PointSettings& settings, const FrameShape& shap
   add_reflections(settings.rotate, settings.seed, false, program);
   const VolumetricTargets targets(shape, settings.dual, false, program);
   const SumRegions sums = add_sums(shape, !directions, directions, program);
-  add_screen(settings, shape, g, f, sums, targets.first(), program);
-  if (!settings.dual.second_radius) return {};
-  f.view.radius = view::tap_radius(*settings.dual.second_radius);
-  add_screen(settings, shape, g, f, sums, targets.second(), program);
+  add_screen(settings, shape, g, plan.first, sums, targets.first(), program);
+  if (plan.second) add_screen(settings, shape, g, *plan.second, sums, targets.second(), program);
   return {};
 }
 
 }  // namespace
 
+template <>
 Status make_program(const PointSettings& settings, const FrameShape& shape, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  PointPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (settings.pattern == PointPattern::kScreen) {
-    return make_screen_program(settings, shape, program);
+    return make_screen_program(settings, plan.screen, shape, program);
   }
   if (shape.directions != Directions::kNone) {
     return unsupported("point gives no directions with pattern ball");
@@ -93,9 +85,9 @@ Status make_program(const PointSettings& settings, const FrameShape& shape, Prog
   const Geometry g = add_geometry(shape, shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, true, program);
   add_volumetric(
-      settings, shape, g,
-      [&](const PointSettings& s, const VisibilityTarget& target) {
-        add_ball(s, shape, g, target, program);
+      settings, plan.ball, shape, g,
+      [&](const PointFrame& f, const VisibilityTarget& target) {
+        add_ball(settings, f, shape, g, target, program);
       },
       program);
   return {};

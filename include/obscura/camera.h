@@ -2,6 +2,7 @@
 #define OBSCURA_CAMERA_H_
 
 #include "obscura/status.h"
+#include "obscura/views.h"
 
 namespace obscura {
 
@@ -10,6 +11,10 @@ struct GuardBand {
   int left = 0, right = 0, top = 0, bottom = 0;
 
   static GuardBand symmetric(int x, int y) { return {x, x, y, y}; }
+  // The visible size of an image that is `whole` with its guard band.
+  Extent inside(Extent whole) const {
+    return {whole.width - left - right, whole.height - top - bottom};
+  }
   bool operator==(const GuardBand&) const = default;
 };
 

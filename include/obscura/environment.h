@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "obscura/executor.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/views.h"
 
@@ -76,12 +76,13 @@ class Environment {
   // 32768x16384. Its top row is up (+y), its middle column straight ahead (-z), right of it +x.
   // NaN, negative, infinite and huge values are mended as EnvironmentRepairs says; a map with
   // nothing but NaN or infinity in it is refused. The light is resampled to a cube of 128x128 cells
-  // a face, without loss of energy. Without an executor, every processor is used; the bits are the
-  // same for any number of threads.
+  // a face, without loss of energy. The same bits for any number of threads; of `options` only
+  // they count.
   static Status from_lat_long(const VectorView<const float>& rgb, Environment* environment,
-                              EnvironmentRepairs* repairs = nullptr, Executor* executor = nullptr);
+                              EnvironmentRepairs* repairs = nullptr,
+                              const RunOptions& options = {});
   static Status from_sky(const SkySettings& settings, Environment* environment,
-                         Executor* executor = nullptr);
+                         const RunOptions& options = {});
 
   bool empty() const { return !impl_; }
 

@@ -8,7 +8,7 @@
 #include "obscura/environment.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
-#include "obscura/outputs.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 
 namespace obscura {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "obscura/environment.h"
-#include "obscura/outputs.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 

@@ -62,7 +62,7 @@ using SurfaceShader = std::function<Status(int first_row, std::span<const Surfac
 // outputs are unspecified.
 Status render_surface(const SurfaceScene& scene, const SurfaceCamera& camera,
                       const SurfaceSettings& settings, const SurfaceShader& shader,
-                      const SurfaceOutputs& outputs, const VolumeRun& run = {});
+                      const SurfaceOutputs& outputs, const RunOptions& run = {});
 
 }  // namespace obscura
 

@@ -5,6 +5,12 @@
 
 namespace obscura {
 
+// A size in pixels.
+struct Extent {
+  int width = 0, height = 0;
+  bool operator==(const Extent&) const = default;
+};
+
 // A caller-owned image: row 0 is the top row. Strides count elements of T, so that one view serves
 // planar images (pixel_stride 1), a channel of an interleaved one (pixel_stride 3 or 4) and
 // sub-rectangles. Negative strides are allowed.

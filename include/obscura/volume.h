@@ -4,11 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 
-#include "obscura/executor.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 
@@ -79,14 +78,6 @@ struct EnumNames<DistanceStart> {
   static constexpr const char* names[] = {"gradient", "edges"};
 };
 
-// What a run reports to and may be stopped by; null or empty members are not used.
-struct VolumeRun {
-  Executor* executor = nullptr;  // null: every processor
-  // Called now and then, from one thread at a time, with the share done in [0, 1]; returning false
-  // stops the run with StatusCode::kCancelled.
-  std::function<bool(double)> progress{};
-};
-
 struct DistanceSettings {
   float isovalue = 0;                   // of the volume's values; a value equal to it is solid
   SolidSide solid = SolidSide::kAbove;  // side of the isovalue that is matter
@@ -116,7 +107,7 @@ struct DistanceReport {
 // the range of values in the message, a volume that the isovalue does not cut.
 // Requires: `distance` as large as the volume and not overlapping it; its spacing is not read.
 Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
-                      GridView<float> distance, const VolumeRun& run = {},
+                      GridView<float> distance, const RunOptions& run = {},
                       DistanceReport* report = nullptr);
 
 // Range and mean of a volume's values; NaN left out.
@@ -126,7 +117,7 @@ struct VolumeRange {
   std::int64_t finite = 0, not_finite = 0;
 };
 // Guarantees: the same bits for any number of threads.
-Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run = {});
+Status volume_range(const VolumeView& volume, VolumeRange* range, const RunOptions& run = {});
 
 // Converts one row of values, x = 0 ... size[0] - 1, to floats.
 void volume_row(const VolumeView& volume, int y, int z, float* values);
@@ -194,14 +185,14 @@ class VisibilityField {
   // Writes the mean visibility of an octant, in [0, 1], at each sample of the field's own grid.
   Status octant(int octant, GridView<float> visibility) const;
   // The same averaged over all octants: one scalar field without the geometry term.
-  Status scalar(GridView<float> visibility, const VolumeRun& run = {}) const;
+  Status scalar(GridView<float> visibility, const RunOptions& run = {}) const;
 
   // Ambient visibility in [0, 1] at points of the surface: the sum of V_s G_s over the chosen
   // octants (equation 4), divided by that of all eight with V = 1, so that an open point is 1 with
   // all. For a field swept with alpha < 1 light comes through the surface too: |N.w| takes the
   // place of max(N.w, 0), and the whole sphere's 2 pi that of pi.
   Status light(std::span<const SurfacePoint> points, const LightSettings& settings,
-               std::span<float> visibility, const VolumeRun& run = {}) const;
+               std::span<float> visibility, const RunOptions& run = {}) const;
 
   VisibilityFieldImpl& impl() { return *impl_; }
   const VisibilityFieldImpl& impl() const { return *impl_; }
@@ -215,14 +206,14 @@ class VisibilityField {
 // same size again reuses its memory (the field is then empty if memory runs out or the run is
 // cancelled).
 Status sweep_occlusion(GridView<const float> distance, const OcclusionSettings& settings,
-                       VisibilityField* field, const VolumeRun& run = {});
+                       VisibilityField* field, const RunOptions& run = {});
 
 // Soft shadow of one light from any direction: a single octant swept on a grid turned so that its
 // axis points to the light (section 4.1). light() of the result gives V alone, without geometry
 // term. `to_light` need not be of unit length.
 Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
                     const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run = {});
+                    const RunOptions& run = {});
 
 struct MonteCarloSettings {
   int rays = 1024;         // [1, 2^24] per point
@@ -240,12 +231,12 @@ void visit_fields(Self& s, Visitor&& v) {
 // distance field. Rays that leave the volume are open.
 Status monte_carlo_visibility(GridView<const float> distance, std::span<const SurfacePoint> points,
                               const MonteCarloSettings& settings, std::span<float> visibility,
-                              const VolumeRun& run = {});
+                              const RunOptions& run = {});
 
 // Reference: 1 where a ray from the point towards `to_light` leaves the volume, else 0.
 Status hard_shadow(GridView<const float> distance, std::span<const SurfacePoint> points,
                    std::array<float, 3> to_light, const MonteCarloSettings& settings,
-                   std::span<float> visibility, const VolumeRun& run = {});
+                   std::span<float> visibility, const RunOptions& run = {});
 
 }  // namespace obscura
 

@@ -1,6 +1,7 @@
 #ifndef OBSCURA_CAMERA_H_
 #define OBSCURA_CAMERA_H_
 
+#include "obscura/export.h"
 #include "obscura/status.h"
 #include "obscura/views.h"
 
@@ -23,7 +24,7 @@ struct GuardBand {
 // pixel coordinates (u, v) count from the corner of the whole image, guard band included:
 //   perspective   x = (u - center_u) scale_x depth,  y = (center_v - v) scale_y depth
 //   orthographic  x = (u - center_u) scale_x,        y = (center_v - v) scale_y
-struct Camera {
+struct OBSCURA_API Camera {
   bool orthographic = false;
   float scale_x = 0;   // (0, inf); eye-space width of a pixel at depth 1, or in world units
   float scale_y = 0;   // (0, inf); the same for its height

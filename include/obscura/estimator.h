@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "obscura/depth_field.h"
+#include "obscura/export.h"
 #include "obscura/methods.h"
 #include "obscura/outputs.h"
 #include "obscura/run_options.h"
@@ -17,7 +18,7 @@ class EstimatorImpl;
 // (patterns, tables, scratch memory) is made by create(); threads are made by the first run() that
 // asks for so many, and further ones allocate nothing. run() is not to be called from two threads
 // at once on one object.
-class Estimator {
+class OBSCURA_API Estimator {
  public:
   Estimator();
   ~Estimator();
@@ -35,8 +36,8 @@ class Estimator {
 };
 
 // One call for arrays: create and run.
-Status compute(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
-               const RunOptions& options = {});
+OBSCURA_API Status compute(const DepthField& field, const MethodSettings& settings,
+                           const Outputs& outputs, const RunOptions& options = {});
 
 }  // namespace obscura
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obscura/area.h"
+#include "obscura/export.h"
 #include "obscura/far_field.h"
 #include "obscura/hemisphere.h"
 #include "obscura/horizon.h"
@@ -49,18 +50,18 @@ void for_each_field(const std::variant<Settings...>& settings, F&& f) {
 }
 
 // The name of the method that the settings belong to: "far-field".
-std::string_view method_name(const MethodSettings& settings);
+OBSCURA_API std::string_view method_name(const MethodSettings& settings);
 
 // The names of all methods, in the order of the list.
-std::vector<std::string_view> method_names();
+OBSCURA_API std::vector<std::string_view> method_names();
 
 // The settings of a method at their defaults; for an unknown name the message lists those there
 // are, and `settings` stays as it was.
-Status make_settings(std::string_view method, MethodSettings* settings);
+OBSCURA_API Status make_settings(std::string_view method, MethodSettings* settings);
 
 // Sets one field, by its C++ name, from text as the command line takes it: set(&s, "radius", "2").
 // On failure the message says what would be right, and `settings` stays as it was.
-Status set(MethodSettings* settings, std::string_view field, std::string_view text);
+OBSCURA_API Status set(MethodSettings* settings, std::string_view field, std::string_view text);
 
 }  // namespace obscura
 

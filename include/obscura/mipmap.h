@@ -17,12 +17,13 @@ struct EnumNames<DepthPyramid> {
 
 // Ambient obscurance from a depth pyramid (far-field ambient obscurance, section 5): the far
 // field's rival, with the same estimator. Along each of K directions the step grows by a factor;
-// samples come from the level as wide as the sector; the last one lies at the image's edge.
+// samples come from the level as wide as the sector; the last one lies at the image's edge. Takes
+// any falloff.
 struct MipmapSettings {
-  Falloff falloff{};                              // any
-  int directions = 16;                            // [4, 64] K
-  float step_factor = 1.5f;                       // [1.05, 4]
-  DepthPyramid pyramid = DepthPyramid::kAverage;  // nearest: the paper's for finite thickness
+  Falloff falloff{};
+  int directions = 16;
+  float step_factor = 1.5f;
+  DepthPyramid pyramid = DepthPyramid::kAverage;
   Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<MipmapSettings> Self, class Visitor>

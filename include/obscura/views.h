@@ -5,9 +5,13 @@
 
 namespace obscura {
 
-// A size in pixels.
+// Pixels of an image along its sides.
 struct Extent {
   int width = 0, height = 0;
+
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
   bool operator==(const Extent&) const = default;
 };
 

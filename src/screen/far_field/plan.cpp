@@ -11,7 +11,7 @@ bool SettingText<NearStep>::parse(std::string_view text, NearStep* value) {
     return true;
   }
   double number;
-  if (!parse_number(text, &number) || !closed(0.125, 8).contains(number)) return false;
+  if (!parse_number(text, &number) || !NearStep::kRange.contains(number)) return false;
   *value = NearStep::of(static_cast<float>(number));
   return true;
 }
@@ -55,9 +55,9 @@ Status make_plan(const FarFieldSettings& given, FarFieldPlan* plan) {
     return invalid_argument("receiver_slope is 0; it must be -1 or 1");
   }
   const float step = settings.near_step.px;
-  if (step != 0 && !(step >= 0.125f && step <= 8)) {
-    return invalid_argument(
-        text("near_step is ", step, "; it must be in [0.125, 8], or 0 for adaptive"));
+  if (step != 0 && !NearStep::kRange.contains(step)) {
+    return invalid_argument(text("near_step is ", step, "; it must be in ",
+                                 to_string(NearStep::kRange), ", or 0 for adaptive"));
   }
   if (settings.separable == 2) return invalid_argument("separable is 2; it must be 1 or 3");
   if (settings.separable == 3 && settings.directions % far_field::kCells != 0) {

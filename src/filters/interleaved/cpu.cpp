@@ -4,7 +4,7 @@
 
 #include "filters/bilateral/kernel.h"
 
-namespace obscura::directional {
+namespace obscura::interleaved {
 namespace {
 
 // Pixels of a tile, whose intermediate rows stay in a second-level cache.
@@ -184,4 +184,4 @@ void InterleavedSums::write(const view::Geometry& g, const Resolve& how, const O
   }
 }
 
-}  // namespace obscura::directional
+}  // namespace obscura::interleaved

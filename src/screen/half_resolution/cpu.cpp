@@ -171,12 +171,12 @@ class HalfResolution final : public Method {
     }
   }
 
-  static BetweenRow shared_row(const view::Geometry& g, const std::vector<Channel>& channels,
-                               float pixel, int at, Rows* rows) {
-    BetweenRow row;
+  static UpsamplingRow shared_row(const view::Geometry& g, const std::vector<Channel>& channels,
+                                  float pixel, int at, Rows* rows) {
+    UpsamplingRow row;
     row.channels = static_cast<int>(channels.size());
     row.orthographic = g.camera.orthographic;
-    row.edge = kBetweenEdge * pixel;
+    row.edge = kUpsamplingEdge * pixel;
     row.surface = rows->row(0, at);
     for (int k = 0; k < 3 && g.has_normals; ++k) row.normal[k] = rows->row(kNormalPlane + k, at);
     for (int c = 0; c < row.channels; ++c) {
@@ -199,17 +199,17 @@ class HalfResolution final : public Method {
         values[2 * i] = known[i] - part * normal[2 * i];
       }
     }
-    BetweenRow row = shared_row(g, channels, g.camera.scale_x, at, rows);
+    UpsamplingRow row = shared_row(g, channels, g.camera.scale_x, at, rows);
     row.odd_only = true;
-    between_row(row, width);
+    upsample_row(row, width);
   }
 
   static void fill_between_rows(const view::Geometry& g, const std::vector<Channel>& channels,
                                 int y, int at, Rows* rows) {
-    BetweenRow row = shared_row(g, channels, g.camera.scale_y, at, rows);
+    UpsamplingRow row = shared_row(g, channels, g.camera.scale_y, at, rows);
     row.value_step = row.surface_step = row.normal_step = rows->memory.stride();
     row.after = y + 1 < g.visible().height;
-    between_row(row, g.visible().width);
+    upsample_row(row, g.visible().width);
   }
 
   // Differences become results.

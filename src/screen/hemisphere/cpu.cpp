@@ -10,8 +10,8 @@
 namespace obscura {
 namespace {
 
-using directional::kChannels;
-using directional::Sums;
+using interleaved::kChannels;
+using interleaved::Sums;
 
 constexpr int kRowsPerTask = 8;
 
@@ -144,7 +144,7 @@ class HemisphereMethod final : public Method {
 
   const HemisphereSettings settings_;
   hemisphere::Frame frame_;
-  directional::InterleavedSums sums_;
+  interleaved::InterleavedSums sums_;
   std::vector<float> light_[3];
 };
 

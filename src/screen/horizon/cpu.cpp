@@ -40,7 +40,7 @@ class HorizonMethod final : public Method {
   }
 
  private:
-  using Sums = directional::Sums;
+  using Sums = interleaved::Sums;
 
   bool classic() const { return settings_.variant == HorizonVariant::kClassic; }
   bool blurred() const { return settings_.blur && settings_.interleave > 1; }
@@ -49,14 +49,14 @@ class HorizonMethod final : public Method {
   Status pass(const view::Geometry& g, const Outputs& o, Sums kind, bool directions,
               const RunContext& context) {
     const int width = g.visible().width, height = g.visible().height;
-    const int channels = directions ? directional::kChannels : 1;
+    const int channels = directions ? interleaved::kChannels : 1;
     const SliceSums slice_sums = !directions             ? SliceSums::kVisibility
                                  : kind == Sums::kCosine ? SliceSums::kCosine
                                                          : SliceSums::kUniform;
     Progress progress(height, context.progress);
     auto sum_rows = [&](int first, int end) {
       for (int y = first; y < end; ++y) {
-        float* out[directional::kChannels] = {};
+        float* out[interleaved::kChannels] = {};
         for (int c = 0; c < channels; ++c) out[c] = sums_.row(c, y);
         classic() ? horizon::classic_row(frame_, y, width, out)
                   : horizon::slices_row(frame_, slice_sums, y, width, out);
@@ -90,7 +90,7 @@ class HorizonMethod final : public Method {
   const HorizonSettings settings_;
   const math::Rho rho_;
   horizon::Frame frame_;
-  directional::InterleavedSums sums_;
+  interleaved::InterleavedSums sums_;
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ class ScreenPointMethod final : public Method {
     if (cancelled) return {StatusCode::kCancelled, "stopped by the caller"};
     context.timer.time("blur", [&] {
       sums_.resolve(g,
-                    {.sums = directional::Sums::kUniform,
+                    {.sums = interleaved::Sums::kUniform,
                      .directions = directions,
                      .interleave = settings_.blur ? kScreenPatternInterleave : 1,
                      .edge = 0.5f * frame_.view.radius,
@@ -53,14 +53,14 @@ class ScreenPointMethod final : public Method {
   // False: stopped by the caller.
   bool sample(const view::Geometry& g, bool directions, const RunContext& context) {
     const int width = g.visible().width, height = g.visible().height;
-    const int channels = directions ? directional::kChannels : 1;
+    const int channels = directions ? interleaved::kChannels : 1;
     Progress progress(height, context.progress);
     const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
     context.executor.parallel_for(tasks, [&](int task, int) {
       if (progress.cancelled()) return;
       const int first = task * kRowsPerTask, end = std::min(height, first + kRowsPerTask);
       for (int y = first; y < end; ++y) {
-        float* out[directional::kChannels] = {};
+        float* out[interleaved::kChannels] = {};
         for (int c = 0; c < channels; ++c) out[c] = sums_.row(c, y);
         screen_pattern_row(frame_, y, width, out);
         sums_.close_row(channels, width, y);
@@ -73,7 +73,7 @@ class ScreenPointMethod final : public Method {
   const PointSettings settings_;
   ScreenPatternFrame frame_;
   ReflectionNoise noise_;
-  directional::InterleavedSums sums_;
+  interleaved::InterleavedSums sums_;
 };
 
 }  // namespace

@@ -142,7 +142,7 @@ class HeadlessVulkan::Impl {
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
              HeadlessTimes* times, const HeadlessFrame& frame, int runs) {
     if (Status s = check(outputs); !s.ok()) return s;
-    const int width = field.visible_width(), height = field.visible_height();
+    const int width = field.visible().width, height = field.visible().height;
     const bool directions = !outputs.bent_normal.empty() || !outputs.cone_angle.empty();
     const vulkan::FrameShape shape{.width = field.depth.width,
                                    .height = field.depth.height,

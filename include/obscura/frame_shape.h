@@ -31,10 +31,7 @@ struct FrameShape {
   int frames = 2;  // sets of images that may be in flight, 1 to 8
 
   Extent size() const { return {width, height}; }
-  Extent visible() const {
-    return {width - guard_band.left - guard_band.right,
-            height - guard_band.top - guard_band.bottom};
-  }
+  Extent visible() const { return guard_band.inside(size()); }
 };
 
 // What may change with each frame.

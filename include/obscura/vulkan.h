@@ -7,11 +7,12 @@
 #include <span>
 
 #include "obscura/estimator.h"
+#include "obscura/export.h"
 #include "obscura/frame_shape.h"
 
 // Estimators on the caller's Vulkan device, recorded into the caller's command buffer. Vulkan 1.1
 // and the feature shaderStorageImageWriteWithoutFormat; nothing is linked against the loader.
-// docs/vulkan.md lists the methods.
+// docs/vulkan.md lists the methods. The whole header is experimental (docs/compatibility.md).
 namespace obscura::vulkan {
 
 // The caller's; must outlive every Recorder made from it.
@@ -58,7 +59,7 @@ struct RecordOptions {
 //
 // Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the processor's
 // Estimator refuses it.
-class Recorder {
+class OBSCURA_API OBSCURA_EXPERIMENTAL Recorder {
  public:
   Recorder();
   ~Recorder();

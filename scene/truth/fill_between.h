@@ -2,6 +2,7 @@
 #define OBSCURA_SCENE_TRUTH_FILL_BETWEEN_H_
 
 #include "io/images/depth_input.h"
+#include "obscura/executor.h"
 #include "obscura/outputs.h"
 
 namespace obscura::tools {

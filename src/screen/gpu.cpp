@@ -7,10 +7,11 @@ namespace {
 
 template <class Settings>
 Status make_full(const Settings& settings, const Frame& frame, Program* program) {
-  if constexpr (requires { make_program(settings, frame, program); }) {
+  using Info = MethodInfo<Settings>;
+  if constexpr (Info::on_vulkan) {
     return make_program(settings, frame, program);
   } else {
-    return unsupported("this method does not run on Vulkan");
+    return unsupported(std::string("the method ") + Info::name + " does not run on Vulkan");
   }
 }
 

@@ -7,15 +7,11 @@
 
 namespace obscura::gpu {
 
-// Adds the passes of a method, in its gpu.cpp; settings or a frame that it cannot work with are
-// refused with a message.
-Status make_program(const AreaSettings& settings, const Frame& frame, Program* program);
-Status make_program(const FarFieldSettings& settings, const Frame& frame, Program* program);
-Status make_program(const HemisphereSettings& settings, const Frame& frame, Program* program);
-Status make_program(const HorizonSettings& settings, const Frame& frame, Program* program);
-Status make_program(const LineSettings& settings, const Frame& frame, Program* program);
-Status make_program(const MipmapSettings& settings, const Frame& frame, Program* program);
-Status make_program(const PointSettings& settings, const Frame& frame, Program* program);
+// Adds the passes of a method; settings or a frame that it cannot work with are refused with a
+// message. The gpu.cpp of each method that runs on a GPU (MethodInfo) holds the specialisation for
+// its settings.
+template <class Settings>
+Status make_program(const Settings& settings, const Frame& frame, Program* program);
 
 // Of any method, at the resolution that its settings ask for.
 Status make_program(const MethodSettings& settings, const FrameShape& shape, Program* program);

@@ -30,8 +30,8 @@ Status check(const DepthField& field, const Needs& needs) {
     return invalid_input(text("depth is ", w, "x", h, "; each side must be in [1, 65535]"));
   }
   const GuardBand& g = field.guard_band;
-  if (g.left < 0 || g.right < 0 || g.top < 0 || g.bottom < 0 || field.visible_width() < 1 ||
-      field.visible_height() < 1) {
+  if (g.left < 0 || g.right < 0 || g.top < 0 || g.bottom < 0 || field.visible().width < 1 ||
+      field.visible().height < 1) {
     return invalid_input(text("guard_band (left ", g.left, ", right ", g.right, ", top ", g.top,
                               ", bottom ", g.bottom, ") leaves nothing visible of a ", w, "x", h,
                               " depth image"));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/grid_sampler.h"
 #include "volume/transport.h"
@@ -197,10 +198,10 @@ Status cancelled() {
 }
 
 Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
-             VisibilityField* field, const VolumeRun& run) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+             VisibilityField* field, const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   VisibilityField result;
   VisibilityFieldImpl& f = result.impl();
   f.transport = settings.transport;
@@ -270,7 +271,7 @@ std::size_t VisibilityField::bytes() const {
 }
 
 Status sweep_occlusion(GridView<const float> distance, const OcclusionSettings& settings,
-                       VisibilityField* field, const VolumeRun& run) {
+                       VisibilityField* field, const RunOptions& run) {
   if (Status s = check(distance, settings); !s.ok()) return s;
   try {
     return sweep(distance, settings, field, run);
@@ -284,10 +285,10 @@ namespace {
 // A grid turned so that its axis (1, 1, 1) points to the light, around the whole volume.
 Status sweep_turned(GridView<const float> distance, const Vec3& light,
                     const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+                    const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   VisibilityField result;
   VisibilityFieldImpl& f = result.impl();
   const float fine = *std::min_element(distance.spacing.begin(), distance.spacing.end());
@@ -366,7 +367,7 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
 
 Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
                     const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run) {
+                    const RunOptions& run) {
   if (Status s = check(distance, settings); !s.ok()) return s;
   const float length = std::hypot(to_light[0], to_light[1], to_light[2]);
   if (!(length > 0 && std::isfinite(length))) {
@@ -411,16 +412,16 @@ Status VisibilityField::octant(int octant, GridView<float> visibility) const {
   return {};
 }
 
-Status VisibilityField::scalar(GridView<float> visibility, const VolumeRun& run) const {
+Status VisibilityField::scalar(GridView<float> visibility, const RunOptions& run) const {
   if (empty()) return invalid_input("the visibility field is empty; sweep it first");
   const VisibilityFieldImpl& f = *impl_;
   if (visibility.data == nullptr || visibility.size != f.size) {
     return invalid_input(text("visibility must be a grid of ", f.size[0], "x", f.size[1], "x",
                               f.size[2], " samples, as the field's own"));
   }
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const int n = static_cast<int>(f.channels());
   float weight[2][4 * kMaxDirections] = {};
   for (int s = f.shadow ? static_cast<int>(kShadowOctant) : 0; s < 8; ++s) {
@@ -514,7 +515,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
 }  // namespace
 
 Status VisibilityField::light(std::span<const SurfacePoint> points, const LightSettings& settings,
-                              std::span<float> visibility, const VolumeRun& run) const {
+                              std::span<float> visibility, const RunOptions& run) const {
   if (empty()) return invalid_input("the visibility field is empty; sweep it first");
   if (settings.octants == 0 || settings.octants > kAllOctants) {
     return invalid_argument(text("octants is ", settings.octants, "; it must be in [1, 255]"));
@@ -523,9 +524,9 @@ Status VisibilityField::light(std::span<const SurfacePoint> points, const LightS
     return invalid_input(text("visibility holds ", visibility.size(), " values; it must hold ",
                               points.size(), ", one per point"));
   }
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const VisibilityFieldImpl& f = *impl_;
   int halves = 0;
   for (int half = 0; half < 2; ++half) {

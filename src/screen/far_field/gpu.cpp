@@ -32,12 +32,11 @@ struct PlaneRegions {
 
 class FarFieldProgram {
  public:
-  FarFieldProgram(const FarFieldSettings& settings, const math::Rho& rho, const Frame& frame,
-                  Program* program)
-      : settings_(settings),
-        rho_(rho),
+  FarFieldProgram(const FarFieldPlan& plan, const Frame& frame, Program* program)
+      : settings_(plan.settings),
+        rho_(plan.rho),
         frame_(frame),
-        tables_(settings, rho, frame.shape),
+        tables_(plan, frame.shape),
         sums_(frame.directions() ? SliceSums::kUniform : SliceSums::kVisibility),
         program_(program) {}
 
@@ -351,16 +350,16 @@ class FarFieldProgram {
 
 }  // namespace
 
-Status make_program(const FarFieldSettings& given, const Frame& frame, Program* program) {
-  FarFieldSettings settings;
-  math::Rho rho;
-  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
+template <>
+Status make_program(const FarFieldSettings& settings, const Frame& frame, Program* program) {
+  FarFieldPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   const Demands demands{.method = "far-field", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   if (settings.occluder.kind == OccluderKind::kBackDepth && !frame.shape.back_depth) {
     return invalid_argument("the occluder is back-depth, but the shape has no image of it");
   }
-  FarFieldProgram(settings, rho, frame, program).build();
+  FarFieldProgram(plan, frame, program).build();
   return {};
 }
 

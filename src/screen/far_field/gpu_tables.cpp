@@ -33,14 +33,13 @@ PlaneShape::PlaneShape(const FrameShape& s, bool turned, int margin)
       visible(turned ? Extent{s.visible().height, s.visible().width} : s.visible()),
       stride(width + 2 * margin) {}
 
-FarFieldTables::FarFieldTables(const FarFieldSettings& settings, const math::Rho& rho,
-                               const FrameShape& shape)
-    : settings_(settings),
-      directions_(far_field::make_directions(settings)),
-      phases_(far_field::phases_of(settings)),
-      margin_(far_field::sideways_reach(directions_, settings.interval)),
+FarFieldTables::FarFieldTables(const FarFieldPlan& plan, const FrameShape& shape)
+    : settings_(plan.settings),
+      directions_(plan.directions),
+      phases_(plan.phases),
+      margin_(plan.reach),
       planes_{{shape, false, margin_}, {shape, true, margin_}},
-      rho_start_(quads_.add_floats(rho.table)) {
+      rho_start_(quads_.add_floats(plan.rho.table)) {
   for (const PlaneShape& plane : planes_) make_batches(plane);
   for (Batch& batch : batches_) make_tables(&batch);
 }

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gpu/quads.h"
-#include "math/falloff.h"
 #include "obscura/frame_shape.h"
 #include "screen/far_field/lines.h"
+#include "screen/far_field/plan.h"
 
 namespace obscura::gpu {
 
@@ -37,7 +37,8 @@ struct Batch {
 // What shaders read of directions, strips, lines and samples, and in which batches.
 class FarFieldTables {
  public:
-  FarFieldTables(const FarFieldSettings& settings, const math::Rho& rho, const FrameShape& shape);
+  // The plan must outlive the tables.
+  FarFieldTables(const FarFieldPlan& plan, const FrameShape& shape);
   FarFieldTables(const FarFieldTables&) = delete;
   FarFieldTables& operator=(const FarFieldTables&) = delete;
 
@@ -80,7 +81,7 @@ class FarFieldTables {
   void add_shifts(const far_field::LineLayout& layout, int height);
 
   const FarFieldSettings& settings_;
-  const std::vector<far_field::Direction> directions_;
+  const std::vector<far_field::Direction>& directions_;
   const int phases_, margin_;
   const PlaneShape planes_[2];
   std::vector<Batch> batches_;

@@ -22,10 +22,11 @@ std::vector<float> tables_of(const hemisphere::Frame& f) {
 
 }  // namespace
 
+template <>
 Status make_program(const HemisphereSettings& settings, const Frame& frame, Program* program) {
   namespace io = hemisphere_io;
   hemisphere::Frame f;
-  if (Status s = make_hemisphere_frame(settings, &f); !s.ok()) return s;
+  if (Status s = make_plan(settings, &f); !s.ok()) return s;
   const Demands demands{.method = "hemisphere", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool cosine = settings.weighting == RayWeighting::kCosine;

@@ -1,7 +1,6 @@
 #include "filters/interleaved/gpu.h"
 #include "math/slice_sums.h"
 #include "screen/gpu.h"
-#include "screen/horizon/kernel.h"
 #include "screen/horizon/plan.h"
 #include "shaders/horizon.h"
 #include "view/gpu.h"
@@ -25,11 +24,12 @@ std::vector<float> tables_of(const horizon::Frame& f, const math::Rho& rho) {
 
 }  // namespace
 
+template <>
 Status make_program(const HorizonSettings& settings, const Frame& frame, Program* program) {
   namespace io = horizon_io;
-  horizon::Frame f;
-  math::Rho rho;
-  if (Status s = make_horizon_frame(settings, &rho, &f); !s.ok()) return s;
+  HorizonPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  const auto& [rho, f] = plan;
   const Demands demands{.method = "horizon", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool classic = settings.variant == HorizonVariant::kClassic;

@@ -2,7 +2,6 @@
 
 #include "gpu/quads.h"
 #include "screen/gpu.h"
-#include "screen/mipmap/kernel.h"
 #include "screen/mipmap/plan.h"
 #include "shaders/mipmap.h"
 #include "shaders/mipmap_pyramid.h"
@@ -17,9 +16,10 @@ struct Tables {
   int level_count = 0, step_count = 0, texels = 0;  // of levels 1 and on
 };
 
-Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const FrameShape& shape) {
+Tables make_tables(const MipmapSettings& settings, const MipmapPlan& plan,
+                   const FrameShape& shape) {
   Tables t;
-  t.rho = t.quads.add_floats(rho.table);
+  t.rho = t.quads.add_floats(plan.rho.table);
   t.levels = t.quads.size();
   t.level_count = std::min(mipmap_level_count(shape.width, shape.height), kMaxMipmapLevels);
   int width = shape.width, height = shape.height;
@@ -30,7 +30,7 @@ Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const F
     height = (height + 1) / 2;
   }
   t.directions = t.quads.size();
-  for (const MipmapDirection& d : mipmap_directions(settings.directions)) {
+  for (const MipmapDirection& d : plan.directions) {
     t.quads.add(bits(d.u), bits(d.v), bits(d.low_u), bits(d.low_v));
     t.quads.add(bits(d.high_u), bits(d.high_v), 0, 0);
   }
@@ -60,13 +60,15 @@ void add_pyramid(const FrameShape& shape, const Tables& tables, bool mean, int d
 
 }  // namespace
 
+template <>
 Status make_program(const MipmapSettings& settings, const Frame& frame, Program* program) {
   namespace io = mipmap_io;
-  math::Rho rho;
-  if (Status s = check_mipmap(settings, &rho); !s.ok()) return s;
+  MipmapPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  const math::Rho& rho = plan.rho;
   if (Status s = check({.method = "mipmap", .normals = true}, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, true, program);
-  const Tables t = make_tables(settings, rho, frame.shape);
+  const Tables t = make_tables(settings, plan, frame.shape);
   program->add_table(t.quads.words());
   const int pyramid = program->add_region(std::max(t.texels, 1) * sizeof(float));
   const bool mean = settings.pyramid == DepthPyramid::kAverage;

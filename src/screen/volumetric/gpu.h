@@ -7,6 +7,7 @@
 #include "gpu/program.h"
 #include "gpu/visibility_target.h"
 #include "obscura/dual_radius.h"
+#include "screen/volumetric/volumetric.h"
 
 namespace obscura::gpu {
 
@@ -41,19 +42,14 @@ struct Sampling {
 void add_sampling(Pass pass, const Sampling& sampling, const Frame& frame, const Geometry& g,
                   const VisibilityTarget& target, Program* program);
 
-// The passes of a method of volumetric obscurance with what may be around it: a second radius and
-// the blur, as make_volumetric in screen/estimator.cpp. sample(settings, target) adds the passes of
-// one radius.
-template <class Settings, class Sample>
-void add_volumetric(const Settings& s, const Frame& frame, const Geometry& g, Sample sample,
-                    Program* program) {
+// The passes of a method of volumetric obscurance with what may be around it: a second sphere and
+// the blur. sample(frame of the plan, target) adds the passes of one sphere.
+template <class Settings, class SphereFrame, class Sample>
+void add_volumetric(const Settings& s, const Spheres<SphereFrame>& plan, const Frame& frame,
+                    const Geometry& g, Sample sample, Program* program) {
   const VolumetricTargets targets(frame, s.dual, s.blur, program);
-  sample(s, targets.first());
-  if (s.dual.second_radius) {
-    Settings other = s;
-    other.falloff.radius = *s.dual.second_radius;
-    sample(other, targets.second());
-  }
+  sample(plan.first, targets.first());
+  if (plan.second) sample(*plan.second, targets.second());
   if (s.blur) add_blur(frame, g, targets.region(), s.falloff.radius, program);
 }
 

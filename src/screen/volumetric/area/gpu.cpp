@@ -4,9 +4,7 @@
 #include <bit>
 
 #include "screen/gpu.h"
-#include "screen/volumetric/area/kernel.h"
 #include "screen/volumetric/area/plan.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/area.h"
 #include "shaders/moments.h"
 #include "view/gpu.h"
@@ -70,10 +68,10 @@ Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, Program* program
   return pyramid;
 }
 
-void add_area(const AreaSettings& settings, const Frame& frame, const Geometry& g,
-              const Pyramid& pyramid, const VisibilityTarget& target, Program* program) {
+void add_area(const AreaSettings& settings, const AreaFrame& f, const Frame& frame,
+              const Geometry& g, const Pyramid& pyramid, const VisibilityTarget& target,
+              Program* program) {
   namespace io = area_io;
-  const AreaFrame f = area_frame(settings);
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.lateral, f.extent, f.half, f.weight, f.level}) {
@@ -96,18 +94,18 @@ void add_area(const AreaSettings& settings, const Frame& frame, const Geometry& 
 
 }  // namespace
 
+template <>
 Status make_program(const AreaSettings& settings, const Frame& frame, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  AreaPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (Status s = check({.method = "area"}, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, frame.shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, false, program);
   const Pyramid pyramid = add_pyramid(frame.shape, g, program);
   add_volumetric(
-      settings, frame, g,
-      [&](const AreaSettings& s, const VisibilityTarget& target) {
-        add_area(s, frame, g, pyramid, target, program);
+      settings, plan, frame, g,
+      [&](const AreaFrame& f, const VisibilityTarget& target) {
+        add_area(settings, f, frame, g, pyramid, target, program);
       },
       program);
   return {};

@@ -1,19 +1,16 @@
 #include "screen/volumetric/gpu.h"
 
 #include "screen/gpu.h"
-#include "screen/volumetric/line/kernel.h"
 #include "screen/volumetric/line/plan.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/line.h"
 #include "view/gpu.h"
 
 namespace obscura::gpu {
 namespace {
 
-void add_line(const LineSettings& settings, const Frame& frame, const Geometry& g,
-              const VisibilityTarget& target, Program* program) {
+void add_line(const LineSettings& settings, const LineFrame& f, const Frame& frame,
+              const Geometry& g, const VisibilityTarget& target, Program* program) {
   namespace io = line_io;
-  const LineFrame f = line_frame(settings, disk_pattern(settings.samples, settings.center));
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.lateral, f.extent, f.half, f.weight}) {
@@ -32,10 +29,10 @@ void add_line(const LineSettings& settings, const Frame& frame, const Geometry& 
 
 }  // namespace
 
+template <>
 Status make_program(const LineSettings& settings, const Frame& frame, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  LinePlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (Status s = check({.method = "line"}, frame.shape); !s.ok()) return s;
   const bool normals = frame.shape.normal_use != NormalUse::kNone;
   if (settings.sphere == SphereKind::kTangent && !normals) {
@@ -44,9 +41,9 @@ Status make_program(const LineSettings& settings, const Frame& frame, Program* p
   const Geometry g = add_geometry(frame, normals, program);
   add_reflections(settings.rotate, settings.seed, false, program);
   add_volumetric(
-      settings, frame, g,
-      [&](const LineSettings& s, const VisibilityTarget& target) {
-        add_line(s, frame, g, target, program);
+      settings, plan, frame, g,
+      [&](const LineFrame& f, const VisibilityTarget& target) {
+        add_line(settings, f, frame, g, target, program);
       },
       program);
   return {};

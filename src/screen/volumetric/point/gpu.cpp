@@ -3,11 +3,8 @@
 #include "core/reflection_noise.h"
 #include "filters/interleaved/gpu.h"
 #include "screen/gpu.h"
-#include "screen/volumetric/point/kernel.h"
 #include "screen/volumetric/point/plan.h"
 #include "screen/volumetric/point/screen_pattern.h"
-#include "screen/volumetric/point/screen_pattern_kernel.h"
-#include "screen/volumetric/volumetric.h"
 #include "shaders/point.h"
 #include "shaders/screen_pattern.h"
 #include "view/gpu.h"
@@ -15,10 +12,9 @@
 namespace obscura::gpu {
 namespace {
 
-void add_ball(const PointSettings& settings, const Frame& frame, const Geometry& g,
-              const VisibilityTarget& target, Program* program) {
+void add_ball(const PointSettings& settings, const PointFrame& f, const Frame& frame,
+              const Geometry& g, const VisibilityTarget& target, Program* program) {
   namespace io = point_io;
-  const PointFrame f = point_frame(settings, ball_pattern(settings.samples));
   std::vector<float> pattern;
   for (int i = 0; i < f.samples; ++i) {
     for (const float* column : {f.x, f.y, f.z, f.weight}) pattern.push_back(column[i]);
@@ -64,41 +60,38 @@ void add_screen(const PointSettings& settings, const Frame& frame, const Geometr
 }
 
 // The screen pattern blurs by itself: each radius is blurred before they are combined.
-Status make_screen_program(const PointSettings& settings, const Frame& frame, Program* program) {
-  ScreenPatternFrame f;
-  if (Status s = make_screen_pattern_frame(settings, &f); !s.ok()) return s;
+Status make_screen_program(const PointSettings& settings, const Spheres<ScreenPatternFrame>& plan,
+                           const Frame& frame, Program* program) {
   const Demands demands{.method = "point", .normals = frame.directions(), .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
-  if (frame.directions() && settings.dual.second_radius) {
+  if (frame.directions() && plan.second) {
     return unsupported("two radii give no directions");
   }
   const Geometry g = add_geometry(frame, frame.shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, false, program);
   const VolumetricTargets targets(frame, settings.dual, false, program);
   const SumRegions sums = add_sums(frame, !frame.directions(), frame.directions(), program);
-  add_screen(settings, frame, g, f, sums, targets.first(), program);
-  if (!settings.dual.second_radius) return {};
-  f.view.radius = view::tap_radius(*settings.dual.second_radius);
-  add_screen(settings, frame, g, f, sums, targets.second(), program);
+  add_screen(settings, frame, g, plan.first, sums, targets.first(), program);
+  if (plan.second) add_screen(settings, frame, g, *plan.second, sums, targets.second(), program);
   return {};
 }
 
 }  // namespace
 
+template <>
 Status make_program(const PointSettings& settings, const Frame& frame, Program* program) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (Status s = validate(settings.dual); !s.ok()) return s;
+  PointPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   if (settings.pattern == PointPattern::kScreen) {
-    return make_screen_program(settings, frame, program);
+    return make_screen_program(settings, plan.screen, frame, program);
   }
   if (Status s = check({.method = "point with pattern ball"}, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, frame.shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, true, program);
   add_volumetric(
-      settings, frame, g,
-      [&](const PointSettings& s, const VisibilityTarget& target) {
-        add_ball(s, frame, g, target, program);
+      settings, plan.ball, frame, g,
+      [&](const PointFrame& f, const VisibilityTarget& target) {
+        add_ball(settings, f, frame, g, target, program);
       },
       program);
   return {};

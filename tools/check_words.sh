@@ -8,7 +8,7 @@ list=$(cat <<'LIST'
 [Ww]hat the contract|the rule itself: what is interpolated, what blocks a ray
 (is|are) held to[ ,.]|Regression thresholds; the bound that a test checks
 behind the first surface|How thick matter is assumed to be behind each depth sample
-[Tt]urns? segments|Rotates sectors per pixel
+[Tt]urns( its| the)? segments|Rotates sectors per pixel
 within their width|by a fraction of a sector
 whatever they are|Overrides ...
 posts and rods|thin objects

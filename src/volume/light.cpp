@@ -13,7 +13,7 @@ namespace {
 constexpr int kMaxChannels = 8 * kMaxDirections;
 constexpr int kBlock = 1024;  // points of a task
 
-// Light at one point from the visibilities of all channels at its look-up.
+// Light at one point, from the visibilities of all channels at the position where it is looked up.
 float gather(const VisibilityFieldImpl& f, const LightSettings& light, const SurfacePoint& point,
              const Place& place, const float* visibility) {
   const int n = f.directions();
@@ -42,7 +42,8 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
     const float* v = visibility + f.first_of_all(s);
     const float within = place.within(s);
     if (n == 1 && !f.scheme.plane) {
-      // Equation 4; seen through the surface, the other side's geometry term adds.
+      // Equation 4. If light passes through the surface, the geometry term of its other side is
+      // added.
       const float g = octant_geometry(normal, s) +
                       (through ? octant_geometry({-normal[0], -normal[1], -normal[2]}, s) : 0.0f);
       if (on) sum += g * (1 + within * (v[0] - 1));

@@ -34,7 +34,8 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
   const std::size_t spare = 64;
   std::vector<std::uint8_t> tau_rows(static_cast<std::size_t>(kRows * pitch) + spare, 255);
   std::vector<std::int16_t> opacity_storage(static_cast<std::size_t>(2 * plane) + spare);
-  // The plane before is kept apart where the stencil reads more of it than the voxel's own.
+  // The previous plane needs memory of its own if the stencil reads more of it than the voxel's own
+  // value.
   const bool apart = sweep.directions[0].stencil == Stencil::kCharacteristic;
   std::vector<std::int16_t> state(
       (apart ? 2 : 1) * static_cast<std::size_t>(channels * plane) + spare, kOne);
@@ -67,7 +68,8 @@ void SweepOcclusion(const OcclusionSweep& sweep) {
     }
     for (int i = 0, together = 1; i < sweep.count; i += together) {
       const SweepDirection* dir = sweep.directions + i;
-      // The upwind stencil keeps little and waits long: three directions fill wide registers.
+      // The upwind stencil needs few registers and has a long latency, so three directions are
+      // swept together in wide registers.
       const bool three = kSides == 2 && dir->stencil == Stencil::kUpwind && i + 3 <= sweep.count;
       together = three ? 3 : 1;
       (three ? SweepAlike<3> : SweepAlike<1>)(layout, orders + i * kGroups, dir);

@@ -58,19 +58,19 @@ void SkewPlane(const Layout& layout, const std::uint8_t* tau, int width, int hei
   }
 }
 
-// One strip's visibilities as they are swept and the voxels that they become.
+// Visibilities of one strip: skewed, as they are swept, and the voxels that they are written to.
 struct Strip {
   const std::uint8_t* const* channels;  // skewed
   int steps, rows, width;
   std::uint8_t* voxels;  // the channels' first in the first voxel of the strip
   std::ptrdiff_t voxel;  // bytes from voxel to voxel
-  // The strip after this one, for the cache: sixteen rows at a time are more than it foresees.
+  // The next strip, to prefetch it: the hardware prefetcher does not follow sixteen rows at a time.
   const std::uint8_t* next;
 };
 constexpr int kCacheLine = 64;
 
-// Writes the kUsed bytes of a turned voxel. A loose one may be followed by bytes that are yet to be
-// written.
+// Writes the kUsed bytes of a transposed voxel. If kLoose, the bytes after it may be overwritten,
+// since they are written later.
 template <int kUsed, bool kLoose>
 HWY_INLINE void CopyVoxel(const std::uint8_t* from, std::ptrdiff_t next, std::uint8_t* to) {
   constexpr int kFirst = kUsed <= 8 ? (kLoose ? 8 : 4) : std::min(16, kLoose ? 16 : kUsed);
@@ -82,16 +82,16 @@ HWY_INLINE void CopyVoxel(const std::uint8_t* from, std::ptrdiff_t next, std::ui
   }
 }
 
-// Turns channels of voxels into voxels of kUsed channels.
+// Transposes rows of channels into voxels of kUsed channels.
 template <int kUsed, bool kMirrored>
 void StoreStrip(const Strip& strip) {
-  constexpr int kRoom = kUsed <= 8 ? 8 : kUsed <= 16 ? 16 : 32;  // bytes of a turned voxel
+  constexpr int kRoom = kUsed <= 8 ? 8 : kUsed <= 16 ? 16 : 32;  // bytes of a transposed voxel
   constexpr int kPerBlock = kRoom < 16 ? 16 / kRoom : 1, kBlocks = kRoom < 16 ? 1 : kRoom / 16;
   const hn::ScalableTag<std::uint8_t> d;
   using VB = hn::Vec<decltype(d)>;
   const int lanes = static_cast<int>(hn::Lanes(d)), together = lanes / kRows;
   HWY_ALIGN std::uint8_t turned[HWY_MAX_BYTES * kRoom];
-  // Copies, as bytes are written that might be anything.
+  // Local copies: the compiler must assume that writing bytes changes the members.
   const int steps = strip.steps, rows = strip.rows, width = strip.width;
   const std::ptrdiff_t voxel = strip.voxel, across = (kMirrored ? width + 1 : width - 1) * voxel;
   std::uint8_t* const voxels = strip.voxels;
@@ -108,8 +108,8 @@ void StoreStrip(const Strip& strip) {
     }
     PerfectShuffle<kRoom, Log2(kRoom)>(d, v);
     for (int c = 0; c < kRoom; ++c) hn::Store(v[c], d, turned + c * lanes);
-    // Shuffles stay within blocks of 16 bytes: such a block's voxels now stand in that block of one
-    // vector after the other.
+    // Shuffles stay within blocks of 16 bytes: the voxels of a block are now in the same block of
+    // consecutive vectors.
     for (int i = 0; i < together; ++i) {
       const int x = t + i;  // of lane 0; each lane is one behind the one before it
       const std::uint8_t* from = turned + i * kRows / 16 * 16 + i * kRows % 16 * kRoom / 16 * lanes;
@@ -160,7 +160,7 @@ void InterleaveRow(const std::uint8_t* const channels[4], const bool mirrored[4]
   }
 }
 
-// The same for one direction: its voxels of four bytes are better written row by row.
+// The same for one direction: voxels of four bytes are written faster row by row.
 void StoreRows(const Layout& layout, const std::uint8_t* const channels[4], int rows, int width,
                std::uint8_t* scratch, std::ptrdiff_t pitch, std::uint8_t* voxels) {
   for (int c = 0; c < 4; ++c) {

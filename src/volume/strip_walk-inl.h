@@ -23,14 +23,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<std::int16_t, 32>;
 using V = hn::Vec<D>;
 constexpr int kLanes = std::min(32, static_cast<int>(HWY_LANES(std::int16_t)));
-// Rows of a strip. Wider vectors hold an order and its mirror image side by side.
+// Rows of a strip. Wider vectors hold two sides: an order and its mirror image.
 constexpr int kRows = std::min(16, kLanes), kSides = kLanes / kRows;
 using RowsTag = hn::CappedTag<std::int16_t, 16>;
 constexpr std::int16_t kOne = 32767;
 
-// Order 0 and 1 of the four within a plane read it as it is, 2 and 3 mirrored in x; odd ones go
-// backward, from the last row's end. A lane group is an order, or with two sides 0 and 2 or 1
-// and 3.
+// There are four orders within a plane. 0 and 1 read the plane as it is, 2 and 3 mirrored in x; 1
+// and 3 go backward, from the end of the last row. A lane group is one order, or with two sides
+// orders 0 and 2, or 1 and 3.
 constexpr int kGroups = 4 / kSides;
 
 // One direction of a lane group, as its strips are swept.
@@ -51,7 +51,7 @@ template <bool kForward>
 HWY_INLINE V Beside(V v, V edge) {
   const D d;
   constexpr int kBytes = static_cast<int>(sizeof(std::int16_t));
-  V other = edge;  // blocks of 16 bytes that lanes move in from
+  V other = edge;  // the blocks of 16 bytes from which lanes are shifted in
   if constexpr (kRows == 16) {
     other =
         hn::SwapAdjacentBlocks(kForward ? hn::OddEvenBlocks(edge, v) : hn::OddEvenBlocks(v, edge));
@@ -139,8 +139,8 @@ class StripWalk {
  private:
   static constexpr std::ptrdiff_t kStep = kForward ? kLanes : -kLanes;
   V first_, second_;
-  // What it keeps from step to step. `c` are values of this plane, `b` of the one before; the
-  // digits say how far back along x and y.
+  // Values kept from step to step: `c` of this plane, `b` of the previous plane. The digits say how
+  // many voxels back they are along x and y.
   V c10_, c01_, b00_, b01_;
   std::int16_t* now_;
   const std::int16_t *before_, *opacity_;
@@ -148,8 +148,8 @@ class StripWalk {
   std::ptrdiff_t at_, other_;
 };
 
-// Directions with one stencil in all four orders, in step: each waits for its own last vector, and
-// the others fill the time.
+// Sweeps directions with one stencil in all four orders at the same time: each waits for its own
+// previous vector, and meanwhile the others are computed.
 template <int kAxis, std::size_t... kWalks>
 void SweepDirections(const Layout& layout, const Order* orders, const SweepDirection* directions,
                      std::index_sequence<kWalks...>) {

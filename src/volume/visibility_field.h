@@ -26,8 +26,9 @@ struct Place {
   float corner_share(int corner) const {
     return share[0][corner & 1] * share[1][corner >> 1 & 1] * share[2][corner >> 2];
   }
-  // Share of the visibility of the voxels within, for light from an octant. Voxels outside the grid
-  // are open on the side of the light; on the other the voxels at the border stand for them.
+  // Share that the voxels inside the grid have in the visibility, for light from an octant. Outside
+  // the grid, space is open on the side of the light; on the other side the voxels at the border
+  // are repeated.
   float within(int octant) const {
     float w = 1;
     for (int a = 0; a < 3; ++a) w *= 1 - outside[a][octant >> a & 1];
@@ -35,7 +36,7 @@ struct Place {
   }
 };
 
-// Channels of octant s stand together, in half s >> 2.
+// The visibilities. The channels of octant s are stored together, in half s >> 2.
 class VisibilityFieldImpl {
  public:
   Transport transport{};
@@ -43,7 +44,7 @@ class VisibilityFieldImpl {
   std::shared_ptr<const PlaneTable> plane;
   std::array<int, 3> size{};
   Vec3 spacing{}, origin{};
-  Vec3 end{};  // as far before the volume's border as `origin` is behind it
+  Vec3 end{};  // as far from the volume's end as `origin` is from its start
   float alpha = 1;
   bool shadow = false;
   Vec3 turned[3]{};  // shadow: axes of the grid in the volume's space
@@ -55,7 +56,7 @@ class VisibilityFieldImpl {
     return static_cast<std::size_t>(size[0]) * size[1] * static_cast<std::size_t>(size[2]);
   }
   std::size_t channels() const { return 4 * scheme.directions.size(); }
-  // Another field's table, where it is the same.
+  // Takes another field's table if it is the same.
   bool take_plane(const VisibilityFieldImpl& other) {
     if (!other.plane || other.transport != transport || other.spacing != spacing ||
         other.alpha != alpha) {
@@ -64,7 +65,8 @@ class VisibilityFieldImpl {
     plane = other.plane;
     return true;
   }
-  // Another field's memory, where it fits: a volume swept again allocates nothing large.
+  // Takes another field's memory if it fits, so that sweeping a volume again allocates nothing
+  // large.
   void take_bytes(VisibilityFieldImpl* other) {
     if (other->voxels() * other->channels() != voxels() * channels()) return;
     for (int half = 0; half < 2; ++half) bytes[half] = std::move(other->bytes[half]);
@@ -109,7 +111,7 @@ class VisibilityFieldImpl {
     return at;
   }
 
-  // All channels there, trilinearly.
+  // All channels at a place, trilinearly.
   void sample(const Place& at, int halves, float* sum) const {
     std::fill_n(sum, 2 * channels(), 0.0f);
     for (int corner = 0; corner < 8; ++corner) {

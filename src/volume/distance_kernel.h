@@ -6,8 +6,8 @@
 
 namespace obscura {
 
-// Marks magnitudes outside the grid. No distance in a grid reaches 1e30 world units, and no update
-// reads or writes these marks.
+// Magnitudes during the sweeps. No distance in a grid reaches 1e30 world units. Voxels outside the
+// grid hold kOutsideDistance; they are never updated, and no update comes from them.
 inline constexpr float kUnknownDistance = 1e30f;
 inline constexpr float kOutsideDistance = 3e38f;
 

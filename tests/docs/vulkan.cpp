@@ -1,8 +1,7 @@
 // docs/vulkan.md, compiled only: the renderer's own variables are arguments.
 #include "vulkan_includes.inc"
 
-namespace {
-
+// What a renderer has already.
 struct Renderer {
   VkDevice device;
   VkPipelineCache pipeline_cache;
@@ -14,8 +13,6 @@ struct Renderer {
   int frame;
   std::uint32_t frame_index;
 };
-
-}  // namespace
 
 bool record_vulkan(const Renderer& renderer, PFN_vkGetDeviceProcAddr vkGetDeviceProcAddr) {
   const auto& [device, pipeline_cache, buffer, depth_view0, visibility_view0, depth_view1,

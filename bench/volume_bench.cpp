@@ -176,7 +176,7 @@ void fog_to_sdf(benchmark::State& state) {
   }
   const int threads = static_cast<int>(state.range(1));
   auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   if (!sweep_distance(g.view(), {}, g.grid(), run).ok()) return state.SkipWithError("refused");
   const std::vector<float> ours = g.distance;
@@ -276,7 +276,7 @@ void transport(benchmark::State& state) {
   Gyroid g(static_cast<int>(state.range(0)));
   g.distance = g.values;
   auto executor = make_executor(static_cast<int>(state.range(2)));
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   OcclusionSettings settings;
   settings.transport = static_cast<Transport>(state.range(1));

@@ -155,7 +155,7 @@ void line(benchmark::State& state, int width, int height) {
   auto s = make_setup(state.range(1) != 0, static_cast<int>(state.range(3)), width, height);
   std::unique_ptr<Method> method;
   const auto settings = settings_of<LineSettings>(state, *s);
-  if (!make_line(settings, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   const std::span<const DiskSample> pattern = disk_pattern(settings.samples, false);
@@ -170,7 +170,7 @@ void point(benchmark::State& state, int width, int height) {
   auto s = make_setup(state.range(1) != 0, static_cast<int>(state.range(3)), width, height);
   std::unique_ptr<Method> method;
   const auto settings = settings_of<PointSettings>(state, *s);
-  if (!make_point(settings, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   const std::span<const BallSample> pattern = ball_pattern(settings.samples);
@@ -209,7 +209,7 @@ void area(benchmark::State& state, int width, int height) {
     return;
   }
   std::unique_ptr<Method> method;
-  if (!make_area(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   // Where all is at one depth, half of the sphere is open, or with normals all of it.

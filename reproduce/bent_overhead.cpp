@@ -27,7 +27,7 @@ Status time_method(const Rendering& rendering, const MethodSettings& settings, E
   bent.bent_normal = buffers.bent;
   bent.cone_angle = buffers.angle;
   Estimator estimator;
-  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
       !s.ok()) {
     return s;
   }

@@ -35,13 +35,13 @@ struct Run {
 Status run_timed(const std::string& label, const AnySettings& settings, const LoadedInput& input,
                  int threads, bool quiet, Run* run) {
   const DepthField field = input.field();
-  run->image = tools::Image(field.visible_width(), field.visible_height());
+  run->image = tools::Image(field.visible().width, field.visible().height);
   run->image.add("visibility");
   tools::ProgressBar bar(label, !quiet);
   const tools::Stopwatch watch;
   const Status status =
-      run_method(settings, input, threads, {.visibility = run->image.view(0)},
-                 {.executor = nullptr, .progress = [&bar](double share) { return bar(share); }});
+      run_method(settings, input, {.visibility = run->image.view(0)},
+                 {.threads = threads, .progress = [&bar](double share) { return bar(share); }});
   run->seconds = watch.seconds();
   return status;
 }
@@ -51,7 +51,7 @@ Status write_pictures(const DemoCommand& c, const std::string& name, const Depth
                       const Run& method, const Run& truth) {
   auto visible = [&](const ImageView<const float>& v) {
     return ImageView<const float>(&v(field.guard_band.left, field.guard_band.top),
-                                  field.visible_width(), field.visible_height(), v.row_stride);
+                                  field.visible().width, field.visible().height, v.row_stride);
   };
   const auto mask = visible(field.depth);
   const tools::Image depth = tools::depth_picture(mask);
@@ -100,7 +100,7 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
 
   tools::Comparison r;
   const ImageView<const float> mask(&field.depth(field.guard_band.left, field.guard_band.top),
-                                    field.visible_width(), field.visible_height(),
+                                    field.visible().width, field.visible().height,
                                     field.depth.row_stride);
   if (s = tools::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
   report->add(name, "time", 1e3 * method.seconds, "ms");
@@ -112,7 +112,7 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
     fmt::print(
         "{}: {}x{}, falloff length {:.3g}: {} {:.2f} s, truth {:.2f} s, e_A {:.2f} %, "
         "e_<5% {:.1f} %, bias {:+.2f} %: {}/{}-*.png\n",
-        name, field.visible_width(), field.visible_height(), radius, kDefaultMethod, method.seconds,
+        name, field.visible().width, field.visible().height, radius, kDefaultMethod, method.seconds,
         truth.seconds, r.e_a, r.within_5, r.bias, c.folder, name);
   }
   return {};

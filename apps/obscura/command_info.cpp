@@ -22,7 +22,7 @@ struct InfoCommand {
 Status run_volume_info(const InfoCommand& c) {
   tools::VolumeImage image;
   nlohmann::ordered_json description;
-  if (Status s = c.volume.load(c.path, &image); !s.ok()) return s;
+  if (Status s = c.volume.load(c.path, 0, &image); !s.ok()) return s;
   if (Status s = tools::describe_volume(image, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(tools::volume_description_text(description).c_str(), stdout);
   if (c.json.empty()) return {};

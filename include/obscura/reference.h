@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "obscura/export.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
 
@@ -21,16 +22,17 @@ struct EnumNames<RayWeighting> {
 
 // The truth that a depth image holds: rays over each pixel's hemisphere, traced without a step size
 // against the depth field itself (docs/methods/reference.md says what surface that is). Slow, and
-// unbiased: two seeds differ only by the standard error, which can be had as an output.
+// unbiased: two seeds differ only by the standard error, which can be had as an output. Takes any
+// falloff and any occluder.
 struct ReferenceSettings {
-  Falloff falloff{};                               // any kind
-  Occluder occluder{};                             // any kind
-  int rays = 1024;                                 // per pixel and weighting
-  RayWeighting weighting = RayWeighting::kCosine;  // of `visibility` and `standard_error`
-  int every = 1;                                   // trace every n-th pixel of every n-th row
-  bool interpolate = false;                        // fill the others from them; else they are NaN
-  float beyond_border = 0;  // world units; 0: rays that leave the image see nothing
-  float offset_px = 0;      // pixels; 0: see its help below
+  Falloff falloff{};
+  Occluder occluder{};
+  int rays = 1024;
+  RayWeighting weighting = RayWeighting::kCosine;
+  int every = 1;
+  bool interpolate = false;
+  float beyond_border = 0;
+  float offset_px = 0;
   std::uint32_t seed = 1;
   // C++ only: RGB radiance from a unit direction in eye space, for Outputs::radiance. Called from
   // several threads.
@@ -54,8 +56,15 @@ void visit_fields(Self& s, Visitor&& v) {
                        "thickness, 1 for back-depth and layers."});
   v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
 }
+template <>
+struct MethodInfo<ReferenceSettings> {
+  static constexpr const char* name = "ray-traced";
+  static constexpr const char* summary = "The truth of the depth field itself, by ray tracing";
+  static constexpr const char* page = "docs/methods/reference.md";
+  static constexpr bool on_vulkan = false;
+};
 
-Status validate(const ReferenceSettings& settings);
+OBSCURA_API Status validate(const ReferenceSettings& settings);
 
 }  // namespace obscura
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <limits>
 
+#include "fmt/format.h"
+
 namespace obscura::tools {
 namespace {
 
@@ -85,11 +87,11 @@ RayScene::RayScene(Mesh mesh)
     : mesh_(std::move(mesh)), bounds_(bounds_of(mesh_)), embree_(new Embree) {}
 RayScene::~RayScene() = default;
 
-Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene) {
+Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene, int threads) {
   std::unique_ptr<RayScene> made(new RayScene(std::move(input)));
   const Mesh& mesh = made->mesh_;
   Embree& e = *made->embree_;
-  e.device = rtcNewDevice(nullptr);
+  e.device = rtcNewDevice(fmt::format("threads={}", threads).c_str());
   if (!e.device) return {StatusCode::kInternal, "Embree offers no device on this processor"};
   e.scene = rtcNewScene(e.device);
   // Robust: rays do not slip through edges. The context's filter collects all hits of a ray.

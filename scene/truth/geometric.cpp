@@ -215,7 +215,7 @@ Status trace_geometric(const Rendering& rendering, const GeometricSettings& sett
                        const Outputs& outputs, const RunOptions& options) {
   if (Status s = check(rendering, settings, outputs); !s.ok()) return s;
   std::unique_ptr<Executor> own;
-  if (!options.executor) own = make_executor();
+  if (!options.executor) own = make_executor(options.threads);
   Executor& executor = options.executor ? *options.executor : *own;
 
   const bool uniform_visibility = settings.weighting == RayWeighting::kUniform;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "obscura/outputs.h"
+#include "obscura/run_options.h"
 
 namespace obscura {
 

@@ -5,11 +5,12 @@
 #include <numbers>
 #include <vector>
 
+#include "core/check_sphere.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "filters/bilateral/bilateral.h"
-#include "screen/volumetric/volumetric.h"
 #include "view/geometry.h"
 
 namespace obscura {
@@ -204,12 +205,12 @@ class Marcher {
 Status check(const DepthField& field, const Environment& environment,
              const ImportanceSettings& settings, const VectorView<float>& out) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (Status s = check_sphere(settings.falloff, settings.occluder); !s.ok()) return s;
   if (environment.empty()) return invalid_argument("environment is empty");
   for (const auto* view : {&out.x, &out.y, &out.z}) {
-    if (view->width == field.visible_width() && view->height == field.visible_height()) continue;
+    if (view->width == field.visible().width && view->height == field.visible().height) continue;
     return invalid_argument(text("out is ", view->width, "x", view->height, "; it must be ",
-                                 field.visible_width(), "x", field.visible_height(),
+                                 field.visible().width, "x", field.visible().height,
                                  ", the visible size"));
   }
   return {};
@@ -221,13 +222,14 @@ Status light_by_importance(const DepthField& field, const Environment& environme
                            const ImportanceSettings& settings, const VectorView<float>& out,
                            const RunOptions& options) {
   if (Status s = check(field, environment, settings, out); !s.ok()) return s;
-  const std::unique_ptr<Executor> own = options.executor ? nullptr : make_executor();
-  Executor& executor = options.executor ? *options.executor : *own;
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   view::Geometry g;
   if (Status s = view::convert(field, {.normals = true}, executor, &g); !s.ok()) return s;
   const std::vector<LightSample> samples = make_samples(environment, settings);
   const Marcher marcher(g, settings);
-  const int width = g.visible_width(), height = g.visible_height(), m = settings.interleave;
+  const int width = g.visible().width, height = g.visible().height, m = settings.interleave;
   Progress progress(height, options.progress);
   executor.parallel_for(height, [&](int row, int) {
     if (progress.cancelled()) return;

@@ -5,6 +5,7 @@
 
 #include "core/aligned_image.h"
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "lighting/light_kernel.h"
 #include "lighting/preconvolved_impl.h"
@@ -62,9 +63,9 @@ class Rows {
 // body(rows, y) for each row of an image, on threads.
 Status for_rows(int width, int height, int scratch_rows, const RunOptions& options,
                 FunctionRef<void(Rows&, int)> body) {
-  std::unique_ptr<Executor> own;
-  if (!options.executor) own = make_executor();
-  Executor& executor = options.executor ? *options.executor : *own;
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   std::vector<Rows> scratch;
   scratch.reserve(executor.thread_count());
   for (int k = 0; k < executor.thread_count(); ++k) scratch.emplace_back(width, scratch_rows);

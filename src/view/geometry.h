@@ -27,8 +27,7 @@ struct Geometry {
   std::vector<Layer> layers;           // when asked for
   float min_depth = 0, max_depth = 0;  // over finite pixels; both 0 where all is background
 
-  int visible_width() const { return width - guard_band.left - guard_band.right; }
-  int visible_height() const { return height - guard_band.top - guard_band.bottom; }
+  Extent visible() const { return guard_band.inside({width, height}); }
 };
 
 // What an estimator needs in addition to depth.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/transport.h"
 #include "volume/visibility_field.h"
@@ -71,7 +72,7 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
 }  // namespace
 
 Status VisibilityField::light(std::span<const SurfacePoint> points, const LightSettings& settings,
-                              std::span<float> visibility, const VolumeRun& run) const {
+                              std::span<float> visibility, const RunOptions& run) const {
   if (empty()) return invalid_input("the visibility field is empty; sweep it first");
   if (settings.octants == 0 || settings.octants > kAllOctants) {
     return invalid_argument(text("octants is ", settings.octants, "; it must be in [1, 255]"));
@@ -80,9 +81,9 @@ Status VisibilityField::light(std::span<const SurfacePoint> points, const LightS
     return invalid_input(text("visibility holds ", visibility.size(), " values; it must hold ",
                               points.size(), ", one per point"));
   }
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const VisibilityFieldImpl& f = *impl_;
   int halves = 0;
   for (int half = 0; half < 2; ++half) {

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "volume/sweep_halves.h"
 #include "volume/transport.h"
 #include "volume/visibility_field.h"
@@ -16,10 +17,10 @@ float unit_of(const Vec3& spacing) {
 }
 
 Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
-             VisibilityField* field, const VolumeRun& run) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+             VisibilityField* field, const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   VisibilityField result;
   VisibilityFieldImpl& f = result.impl();
   f.transport = settings.transport;
@@ -71,7 +72,7 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
 }  // namespace
 
 Status sweep_occlusion(GridView<const float> distance, const OcclusionSettings& settings,
-                       VisibilityField* field, const VolumeRun& run) {
+                       VisibilityField* field, const RunOptions& run) {
   if (Status s = check_sweep(distance, settings); !s.ok()) return s;
   try {
     return sweep(distance, settings, field, run);

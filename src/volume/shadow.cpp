@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/grid_sampler.h"
 #include "volume/sweep_halves.h"
@@ -17,10 +18,10 @@ namespace {
 // A grid turned so that its axis (1, 1, 1) points to the light, around the whole volume.
 Status sweep_turned(GridView<const float> distance, const Vec3& light,
                     const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+                    const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   VisibilityField result;
   VisibilityFieldImpl& f = result.impl();
   const float fine = *std::min_element(distance.spacing.begin(), distance.spacing.end());
@@ -99,7 +100,7 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
 
 Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
                     const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run) {
+                    const RunOptions& run) {
   if (Status s = check_sweep(distance, settings); !s.ok()) return s;
   const float length = std::hypot(to_light[0], to_light[1], to_light[2]);
   if (!(length > 0 && std::isfinite(length))) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/run_threads.h"
 #include "core/text.h"
 
 namespace obscura {
@@ -54,16 +55,16 @@ Status VisibilityField::octant(int octant, GridView<float> visibility) const {
   return {};
 }
 
-Status VisibilityField::scalar(GridView<float> visibility, const VolumeRun& run) const {
+Status VisibilityField::scalar(GridView<float> visibility, const RunOptions& run) const {
   if (empty()) return invalid_input("the visibility field is empty; sweep it first");
   const VisibilityFieldImpl& f = *impl_;
   if (visibility.data == nullptr || visibility.size != f.size) {
     return invalid_input(text("visibility must be a grid of ", f.size[0], "x", f.size[1], "x",
                               f.size[2], " samples, as the field's own"));
   }
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const int n = static_cast<int>(f.channels());
   float weight[2][4 * kMaxDirections] = {};
   for (int s = f.shadow ? static_cast<int>(kShadowOctant) : 0; s < 8; ++s) {

@@ -46,7 +46,7 @@ class VulkanTest : public ::testing::Test {
   static void expect_same(const DepthField& field, const MethodSettings& settings,
                           const std::string& what, bool directions = false,
                           const tools::HeadlessFrame& frame = {}) {
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     std::vector<float> images[2][5];
     Outputs outputs[2];
     for (int i = 0; i < 2; ++i) {
@@ -81,7 +81,7 @@ class VulkanTest : public ::testing::Test {
 
   // Random patterns change with the frame.
   static void expect_frames_differ(const DepthField& field, const MethodSettings& settings) {
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     std::vector<float> frames[2];
     for (std::uint32_t i = 0; i < 2; ++i) {
       frames[i].resize(std::size_t(w) * h);

@@ -171,5 +171,26 @@ TEST_F(VulkanLine, WhatCannotRunIsRefused) {
   EXPECT_FALSE(vulkan_->run(in.field(), s, {.visibility = view}).ok());
 }
 
+// Without a near plane NDC depth would be background everywhere.
+TEST_F(VulkanLine, AViewThatCannotBeIsRefusedAsOnTheProcessor) {
+  const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
+  std::vector<float> out(256, -1.0f);
+  const Outputs outputs{.visibility = {out.data(), 16, 16}};
+  DepthField no_near = in.field(), far_before_near = in.field(), no_scale = in.field();
+  no_near.depth_kind = DepthKind::kNdcReversed;
+  far_before_near.depth_kind = DepthKind::kNdc;
+  far_before_near.near_plane = 2;
+  far_before_near.far_plane = 1;
+  no_scale.camera.scale_x = 0;
+  for (const DepthField& field : {no_near, far_before_near, no_scale}) {
+    const Status gpu = vulkan_->run(field, line(1), outputs);
+    EXPECT_FALSE(gpu.ok());
+    EXPECT_EQ(gpu.message(), compute(field, line(1), outputs).message());
+  }
+  EXPECT_EQ(out, std::vector<float>(256, -1.0f));
+  const Status after = vulkan_->run(in.field(), line(1), outputs);
+  EXPECT_TRUE(after.ok()) << after.message();
+}
+
 }  // namespace
 }  // namespace obscura

@@ -48,7 +48,7 @@ struct Result {
 };
 
 Result run(const DepthField& field, const MethodSettings& settings) {
-  Result r{field.visible_width(), field.visible_height(), {}};
+  Result r{field.visible().width, field.visible().height, {}};
   for (auto& p : r.planes) p.assign(static_cast<std::size_t>(r.width) * r.height, -9.0f);
   const Status s = compute(field, settings, r.outputs());
   EXPECT_TRUE(s.ok()) << s.message();
@@ -56,9 +56,9 @@ Result run(const DepthField& field, const MethodSettings& settings) {
 }
 
 std::vector<float> visibility(const DepthField& field, const FarFieldSettings& settings) {
-  std::vector<float> v(static_cast<std::size_t>(field.visible_width()) * field.visible_height());
+  std::vector<float> v(static_cast<std::size_t>(field.visible().width) * field.visible().height);
   const Status s = compute(
-      field, settings, {.visibility = {v.data(), field.visible_width(), field.visible_height()}});
+      field, settings, {.visibility = {v.data(), field.visible().width, field.visible().height}});
   EXPECT_TRUE(s.ok()) << s.message();
   return v;
 }
@@ -207,7 +207,7 @@ TEST(FarFieldSharing, TinyImagesAndWrongSettingsAreAnswered) {
     FarFieldSettings s;
     change(s);
     Estimator e;
-    return std::string(Estimator::create(s, 8, 8, 1, &e).message());
+    return std::string(Estimator::create(s, 8, 8, &e).message());
   };
   EXPECT_NE(message([](auto& s) { s.separable = 2; }).find("must be 1 or 3"), std::string::npos);
   EXPECT_NE(message([](auto& s) { s.separable = 3; }).find("multiple of 9"), std::string::npos);

@@ -20,13 +20,12 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 
 std::vector<float> visibility(const DepthField& field, const FarFieldSettings& settings,
                               int threads = 1) {
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> result(static_cast<std::size_t>(w) * h, -1.0f);
   Estimator estimator;
-  Status s =
-      Estimator::create(settings, field.depth.width, field.depth.height, threads, &estimator);
+  Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
   EXPECT_TRUE(s.ok()) << s.message();
-  s = estimator.run(field, {.visibility = {result.data(), w, h}});
+  s = estimator.run(field, {.visibility = {result.data(), w, h}}, {.threads = threads});
   EXPECT_TRUE(s.ok()) << s.message();
   return result;
 }
@@ -309,7 +308,7 @@ TEST(FarField, EveryFalloffAndEveryWrongSettingIsAnswered) {
     FarFieldSettings s;
     change(s);
     Estimator e;
-    return !Estimator::create(s, 8, 8, 1, &e).ok();
+    return !Estimator::create(s, 8, 8, &e).ok();
   };
   EXPECT_TRUE(refused([](auto& s) { s.directions = 3; }));
   EXPECT_TRUE(refused([](auto& s) { s.segments = 0; }));

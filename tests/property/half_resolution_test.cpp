@@ -14,7 +14,7 @@ struct Result {
   std::vector<float> visibility, bent[3], cone;
 };
 Result run(const DepthField& field, const MethodSettings& settings, bool directions) {
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   Result r;
   auto make = [&](std::vector<float>& v) -> ImageView<float> {
     v.assign(std::size_t(w) * h, -9.0f);
@@ -54,9 +54,9 @@ TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
     // The centre of the first seen pixel, left + 1/2, is at 1/2.
     every.camera.center_u = (in.camera.center_u - left - 0.5f) / 2 + 0.5f;
     every.camera.center_v = (in.camera.center_v - top - 0.5f) / 2 + 0.5f;
-    every.guard_band.right = half_w - (field.visible_width() + 1) / 2;
-    every.guard_band.bottom = half_h - (field.visible_height() + 1) / 2;
-    const int vw = field.visible_width(), vh = field.visible_height();
+    every.guard_band.right = half_w - (field.visible().width + 1) / 2;
+    every.guard_band.bottom = half_h - (field.visible().height + 1) / 2;
+    const int vw = field.visible().width, vh = field.visible().height;
     std::array<std::vector<float>, 3> n;
     for (auto& axis : n) axis.assign(std::size_t(vw) * vh, 0.0f);
     ASSERT_TRUE(
@@ -74,8 +74,8 @@ TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
     }
     const Result half = run(field, horizon(Resolution::kHalf), true);
     const Result expected = run(every.field(), horizon(Resolution::kFull), true);
-    const int ew = every.visible_width();
-    for (int y = 0; y < every.visible_height(); ++y) {
+    const int ew = every.visible().width;
+    for (int y = 0; y < every.visible().height; ++y) {
       for (int x = 0; x < ew; ++x) {
         const std::size_t a = std::size_t(2 * y) * vw + 2 * x, b = std::size_t(y) * ew + x;
         EXPECT_NEAR(half.visibility[a], expected.visibility[b], 2e-3) << x << " " << y;

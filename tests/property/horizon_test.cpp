@@ -21,7 +21,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 std::vector<float> visibility(const synthetic::Input& in, const MethodSettings& settings,
                               int threads = 0) {
   const DepthField field = in.field();
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> v(static_cast<std::size_t>(w) * h, -1.0f);
   Outputs outputs;
   outputs.visibility = {v.data(), w, h};
@@ -330,7 +330,7 @@ TEST(Horizon, RefusesWrongSettings) {
     HorizonSettings s;
     change(s);
     Estimator e;
-    return !Estimator::create(s, 8, 8, 1, &e).ok();
+    return !Estimator::create(s, 8, 8, &e).ok();
   };
   EXPECT_FALSE(refused([](auto&) {}));
   EXPECT_TRUE(refused([](auto& s) { s.directions = 1; }));

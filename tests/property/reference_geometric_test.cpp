@@ -46,8 +46,8 @@ void look_at(const std::string& spec, View* view) {
   ASSERT_TRUE(s.ok()) << s.message();
   const tools::DepthInput& g = view->rendering.gbuffer;
   const DepthField field = g.field();
-  view->width = field.visible_width();
-  view->height = field.visible_height();
+  view->width = field.visible().width;
+  view->height = field.visible().height;
   std::vector<float> depths;
   for (int y = 0; y < view->height; ++y) {
     for (int x = 0; x < view->width; ++x) {

@@ -147,7 +147,7 @@ struct Difference {
 // Traces and compares where both truth and result are known.
 inline Status compare(const Scene& scene, const ReferenceSettings& settings, Difference* result) {
   const DepthField field = scene.input.field();
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> visibility(scene.truth.size()), error(scene.truth.size());
   Outputs outputs;
   outputs.visibility = {visibility.data(), w, h};

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace obscura::directional {
+namespace obscura::interleaved {
 
 inline constexpr int kMaxInterleave = 8;
 inline constexpr int kBlurTaps = kMaxInterleave / 2 + 1;  // on one side, the middle included
@@ -47,6 +47,6 @@ struct Finish {
 void finish_row(const Finish& finish, const float* const sums[kChannels],
                 const float* const normal[3], int width, const Results& results);
 
-}  // namespace obscura::directional
+}  // namespace obscura::interleaved
 
 #endif  // OBSCURA_SRC_FILTERS_INTERLEAVED_KERNEL_H_

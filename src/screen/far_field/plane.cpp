@@ -46,8 +46,8 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   p.height = transposed ? g.width : g.height;
   p.left = transposed ? g.guard_band.top : g.guard_band.left;
   p.top = transposed ? g.guard_band.left : g.guard_band.top;
-  p.visible_width = transposed ? g.visible_height() : g.visible_width();
-  p.visible_height = transposed ? g.visible_width() : g.visible_height();
+  p.visible_width = transposed ? g.visible().height : g.visible().width;
+  p.visible_height = transposed ? g.visible().width : g.visible().height;
   p.scale_u = transposed ? c.scale_y : c.scale_x;
   p.scale_v = transposed ? c.scale_x : c.scale_y;
   p.center_u = transposed ? cv : cu;

@@ -1,4 +1,4 @@
-// Section 10 (totals.cpp, gather): each pixel takes the far field of its accepted neighbours, each of
+// The far field of 3x3 pixels (Timonen 2013, section 10; totals.cpp, gather): each pixel takes the far field of its accepted neighbours, each of
 // which has a ninth of the directions: nine times their mean.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -70,7 +70,7 @@ BENCHMARK(far_field_run)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// The default K = 16x2 alone, and with the direction from the same slices beside it, in turns.
+// The default K = 16x2 without and with directions, measured alternately.
 void far_field_direction(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
   const tools::DepthInput input = guarded(width, height);

@@ -45,7 +45,8 @@ std::unique_ptr<Setup> make_setup(const ReferenceSettings& settings, const char*
   return s;
 }
 
-// Two seeds differ as their standard errors say, and no pixel lies outside [0, 1].
+// Checks that two seeds differ by as much as their standard errors, and that every pixel is in [0,
+// 1].
 bool plausible(Setup* s, ReferenceSettings settings) {
   const std::function<bool(double)> no_progress;
   const RunContext context{*s->executor, no_progress};
@@ -85,7 +86,8 @@ void run(benchmark::State& state, const ReferenceSettings& settings, const char*
   state.counters["Mrays/s/thread"] = rate / threads;
 }
 
-// The bar: 3 million rays per second and thread on the hall at 1280x720, rho reaching across it.
+// Goal: 3 million rays per second and thread on the hall at 1280x720, with a radius as long as the
+// hall.
 void reference(benchmark::State& state, Occluder occluder) {
   ReferenceSettings settings;
   settings.falloff.radius = 20;

@@ -1,4 +1,5 @@
-// Section 5 of bent normals and cones: what directions cost beside visibility alone.
+// Bent normals and cones (Klehm et al. 2011, section 5): what directions cost beside visibility
+// alone.
 #include <algorithm>
 #include <string_view>
 #include <utility>

@@ -8,7 +8,7 @@
 
 namespace obscura::app {
 
-// Where an estimator runs: on the processor, or on a Vulkan device.
+// Where an estimator runs: on the CPU, or on a Vulkan device.
 class BackendOptions {
  public:
   // Adds --backend and --device.

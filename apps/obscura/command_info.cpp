@@ -60,8 +60,9 @@ Status run_info(const InfoCommand& c) {
 
 void add_info(App& app) {
   auto c = std::make_shared<InfoCommand>();
-  CLI::App* command = app.add_command("info", "What a file holds and how it would be read",
-                                      [c] { return run_info(*c); });
+  CLI::App* command =
+      app.add_command("info", "What a file contains and how the other commands would read it",
+                      [c] { return run_info(*c); });
   command
       ->add_option("FILE", c->path,
                    "Image: EXR, PFM, PNG or HDR; volume: .nii, .nii.gz, .nrrd, .nhdr, .vdb, .raw")

@@ -408,7 +408,7 @@ void add_light(App& app) {
       ->type_name("DEGREES");
   command
       ->add_option("--heading-deg", c->heading_deg,
-                   "Turns the camera to the right within the environment [default 0]")
+                   "Rotates the camera to the right in the environment [default 0]")
       ->type_name("DEGREES");
   command
       ->add_option("--pitch-deg", c->pitch_deg,
@@ -422,8 +422,8 @@ void add_light(App& app) {
                     "Neither read nor write $XDG_CACHE_HOME/obscura (~/.cache/obscura)");
   command
       ->add_option("--supersample", c->supersample,
-                   "Averages N x N pixels of the lit picture into one, against jagged edges: give "
-                   "an input or --size N times as large [1 to 8, default 1]")
+                   "Averages N x N pixels of the lit picture into one, for smooth edges; the input "
+                   "or --size must be N times as large [1 to 8, default 1]")
       ->check(CLI::Range(1, 8))
       ->type_name("N");
   c->method.add_to(command, kDefaultMethod);

@@ -342,8 +342,8 @@ void add_volume(App& app) {
       ->type_name("LIST");
   command
       ->add_option("--light", c->light,
-                   fmt::format("{}; directions and octants in the world; octants are numbered from "
-                               "(-,-,-), x fastest [default ao]",
+                   fmt::format("{}; directions and octants in world space; octants are numbered "
+                               "from (-,-,-), x fastest [default ao]",
                                tools::VolumeLight::kForm))
       ->type_name("LIGHT");
   c->table.declare("volume", VolumeSettings{});

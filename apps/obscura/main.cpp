@@ -94,7 +94,7 @@ void add_threads_option(CLI::App* command, int* threads) {
             *threads = given;
             tools::set_exr_threads(given);
           },
-          "Threads; 0 takes every processor [0 to 1024, default 0]")
+          "Threads; 0 uses all processors [0 to 1024, default 0]")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
 }

@@ -129,8 +129,9 @@ nlohmann::ordered_json to_json(const AnySettings& settings) {
 std::string settings_markdown() {
   std::string out =
       "# Settings\n\n"
-      "Every method's fields: in C++ by the name given, on the command line as `--name` with `-` "
-      "for `_`.\nMade by `obscura settings`; a test keeps this page and the library in step.\n";
+      "The settings of every method. The names are those of C++; on the command line they are "
+      "`--name` with `-` "
+      "for `_`.\nMade by `obscura settings`; a test compares this page with the library.\n";
   for (const MethodEntry& m : methods()) {
     const std::string page = m.page + std::string_view("docs/").size();  // from this page
     out += fmt::format("\n## {}\n\n{} ([page]({})).{}\n\n", m.name, m.summary, page,

@@ -29,12 +29,15 @@ template <FieldsOf<AreaSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   visit_fields(s.dual, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.samples, Field{"samples", "per pixel", closed(1, 16), "Size of the pattern."});
-  v(s.center, Field{"center", "", {}, "One sample lies at the pattern's centre."});
-  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 16), "Samples in the pattern."});
+  v(s.center, Field{"center", "", {}, "Put one sample at the centre of the pattern."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random in each pixel."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
 template <>

@@ -36,7 +36,7 @@ struct DualRadius {
 template <FieldsOf<DualRadius> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.second_radius, Field{"second_radius", "world units", {}, "Radius of a second sphere."});
-  v(s.combine, Field{"combine", "", {}, "How the results of both spheres become one."});
+  v(s.combine, Field{"combine", "", {}, "How the results of both radii are combined."});
 }
 
 OBSCURA_API Status validate(const DualRadius& dual);

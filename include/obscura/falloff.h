@@ -35,12 +35,12 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.kind, Field{"falloff",
                   "",
                   {},
-                  "How an occluder's weight falls with its distance d: 1 up to "
-                  "the radius R, exp(-d/R), (1-d/R)^2 or 1/(1+(d/R)^2)."});
+                  "Weight of an occluder at distance d with radius R: 1 up to R, exp(-d/R), "
+                  "(1-d/R)^2 or 1/(1+(d/R)^2)."});
   v(s.radius,
     Field{
         "radius", "world units", positive_or_infinite(),
-        "Length R of the falloff, inf: no falloff; the sphere's radius in volumetric obscurance."});
+        "Radius R of the falloff, inf: no falloff; in volumetric obscurance that of the sphere."});
 }
 
 OBSCURA_API Status validate(const Falloff& falloff);

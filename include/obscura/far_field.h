@@ -74,36 +74,45 @@ struct FarFieldSettings {
 template <FieldsOf<FarFieldSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.preset,
-    Field{"preset", "", {}, "Sets directions, segments and near_step, whatever they are."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.preset, Field{"preset", "", {}, "Overrides directions, segments and near_step."});
   v(s.directions,
     Field{"directions", "", closed(4, 64), "Directions K in which the depth image is scanned."});
-  v(s.segments, Field{"segments", "per direction", closed(1, 8),
-                      "Segments S into which each direction's sector is divided."});
-  v(s.interval,
-    Field{"interval", "pixels", closed(2, 64), "Base interval B0 along the scanned lines."});
+  v(s.segments, Field{"segments", "per direction", closed(1, 8), "Sectors S per direction."});
+  v(s.interval, Field{"interval", "pixels", closed(2, 64),
+                      "Length B0 of the shortest interval along a scanned line."});
   v(s.profile,
-    Field{
-        "profile", "", {}, "Where matter is between two points of a slice; slab is the paper's."});
-  v(s.receiver_slope, Field{"receiver_slope", "", closed(-1, 1),
-                            "Slope at which the second height is taken: 1, or -1, the paper's."});
-  v(s.near_step, Field{"near_step", "pixels", {}, "Step of the near field's direct samples."});
-  v(s.near_field, Field{"near_field", "", {}, "Sample the near field; off: the far field alone."});
+    Field{"profile",
+          "",
+          {},
+          "Assumed shape of objects between two visible points of a slice; slab is the paper's."});
+  v(s.receiver_slope,
+    Field{"receiver_slope", "", closed(-1, 1),
+          "Slope of the second line of sight to an interval: 1, or -1 as published."});
+  v(s.near_step, Field{"near_step", "pixels", {}, "Distance between samples near the pixel."});
+  v(s.near_field, Field{"near_field", "", {}, "Sample the pixel's surroundings directly, too."});
   v(s.separable, Field{"separable", "pixels", closed(1, 3),
-                       "3: each pixel of a 3x3 group sees the far field in a ninth of the "
-                       "directions, a multiple of 9; 1: in all."});
-  v(s.jitter, Field{"jitter", "", {}, "Turns segments from pixel to pixel within their width."});
-  v(s.blur, Field{"blur", "", {}, "Selective 5x5 blur after separable evaluation or jitter."});
-  v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Every n-th line is scanned."});
-  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
+                       "3: each pixel of a 3x3 group evaluates a ninth of the directions, whose "
+                       "number must be a multiple of 9; 1: each pixel evaluates all."});
+  v(s.jitter, Field{"jitter", "", {}, "Rotates sectors per pixel, in groups of 3x3 pixels."});
+  v(s.blur, Field{"blur", "", {}, "5x5 edge-aware blur; used with separable 3 or jitter."});
+  v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Scan every n-th line only."});
+  v(s.cone,
+    Field{
+        "cone",
+        "",
+        {},
+        "How the cone angle follows from the mean direction: exactly for a cap, or as published."});
   v(s.resolution, resolution_field());
 }
 template <>
 struct MethodInfo<FarFieldSettings> {
   static constexpr const char* name = "far-field";
   static constexpr const char* summary =
-      "Far-field ambient obscurance: the whole depth image (Timonen 2013)";
+      "Far-field ambient obscurance: every pixel sees the whole depth image (Timonen 2013)";
   static constexpr const char* page = "docs/methods/far-field.md";
   static constexpr bool on_vulkan = true;
 };

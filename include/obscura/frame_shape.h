@@ -40,7 +40,7 @@ struct FrameView {
   float near_plane = 0;  // for the NDC kinds: (0, far_plane)
   float far_plane = std::numeric_limits<float>::infinity();
   // For a temporal filter: random and interleaved patterns move from pixel to pixel with it, so
-  // that the mean over 16 frames is that of 16 patterns. 0 gives what the processor gives.
+  // that the mean over 16 frames is that of 16 patterns. 0 gives what the CPU gives.
   std::uint32_t frame_index = 0;
 };
 

@@ -38,17 +38,28 @@ struct HemisphereSettings {
 template <FieldsOf<HemisphereSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.samples, Field{"samples", "per pixel", closed(1, 64), "Size of the pattern."});
-  v(s.steps, Field{"steps", "per sample", closed(0, 8),
-                   "Ray-marching steps between the receiver and each sample."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 64), "Samples in the pattern."});
+  v(s.steps,
+    Field{"steps", "per sample", closed(0, 8), "Points tested between the pixel and each sample."});
   v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
-                        "Size m of the m x m pixels that share one larger pattern."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
+                        "Groups of m x m pixels share one larger pattern."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
   v(s.weighting,
-    Field{"weighting", "", {}, "How visibility weighs directions; the paper's is uniform."});
-  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+    Field{"weighting",
+          "",
+          {},
+          "How directions are weighted: by the cosine to the normal, or equally as in the paper."});
+  v(s.cone,
+    Field{
+        "cone",
+        "",
+        {},
+        "How the cone angle follows from the mean direction: exactly for a cap, or as published."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
 template <>

@@ -46,21 +46,28 @@ struct HorizonSettings {
 template <FieldsOf<HorizonSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.variant, Field{"variant", "", {}, "Cosine-weighted slices, or the published method."});
-  v(s.profile,
-    Field{"profile",
-          "",
-          {},
-          "Slices: where matter is between two points, under falloffs other than constant."});
+  v(s.variant,
+    Field{"variant", "", {}, "Cosine-weighted slices, or the method as published (classic)."});
+  v(s.profile, Field{"profile",
+                     "",
+                     {},
+                     "With slices: assumed shape of objects between two visible points, for "
+                     "falloffs other than constant."});
   v(s.directions, Field{"directions", "", closed(2, 64), "Azimuthal directions K."});
   v(s.steps, Field{"steps", "per direction", closed(1, 64), "Samples along each direction."});
-  v(s.angle_bias, Field{"angle_bias", "radians", closed(0, 1.5),
-                        "Classic: how far a sample must rise above the tangent plane to count."});
+  v(s.angle_bias,
+    Field{"angle_bias", "radians", closed(0, 1.5),
+          "With classic: the least angle above the tangent plane at which a sample counts."});
   v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
-                        "Size m of the m x m pixels that share one larger pattern."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+                        "Groups of m x m pixels share one larger pattern."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.cone,
+    Field{
+        "cone",
+        "",
+        {},
+        "How the cone angle follows from the mean direction: exactly for a cap, or as published."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
 template <>

@@ -31,13 +31,17 @@ struct OBSCURA_EXPERIMENTAL ImportanceSettings {
 template <FieldsOf<ImportanceSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.samples, Field{"samples", "per pixel", closed(1, 256), "Directions, by the light's power."});
-  v(s.steps, Field{"steps", "per sample", closed(1, 64), "Tested points along each direction."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 256),
+                     "Directions, chosen in proportion to the light."});
+  v(s.steps, Field{"steps", "per sample", closed(1, 64), "Points tested along each direction."});
   v(s.interleave, Field{"interleave", "pixels", closed(1, 16),
                         "Size m of the m x m pixels that share one larger set."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 // The light that a white diffuse surface reflects, linear RGB of the visible size: the mean over

@@ -21,9 +21,9 @@ struct PreconvolutionSettings {
 };
 template <FieldsOf<PreconvolutionSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.cells, Field{"cells", "cells", closed(4, 128), "Cells of the table along a face's side."});
+  v(s.cells, Field{"cells", "cells", closed(4, 128), "Cells per edge of a cube face."});
   v(s.source_cells, Field{"source_cells", "cells", closed(8, 128),
-                          "Cells of the light that is summed over, along a face's side."});
+                          "Cells of the summed light per edge of a cube face."});
 }
 
 // Radiance of a white diffuse surface by direction w and cone angle a,
@@ -71,7 +71,8 @@ struct EnumNames<LightingTechnique> {
 
 enum class ConeNormalisation {
   kConstant,  // t = 1/sin^2(a): constant light stays constant
-  kPaper,     // t = 1/(1 - cos a), section 3.3: constant light becomes 1 + cos a
+  kPaper,  // t = 1/(1 - cos a), Klehm et al. 2011, Klehm et al. 2011, section 3.3: constant light
+           // becomes 1 + cos a
 };
 template <>
 struct EnumNames<ConeNormalisation> {
@@ -101,19 +102,27 @@ struct LightingSettings {
 };
 template <FieldsOf<LightingSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.technique, Field{"technique", "", {}, "What the light is looked up with."});
-  v(s.geometric_term, Field{"geometric_term",
-                            "",
-                            {},
-                            "Multiply by bent normal times normal, max(0, N.n) (section 3.4)."});
-  v(s.normalisation, Field{"normalisation",
-                           "",
-                           {},
-                           "Of the cones' light: constant light stays constant, or as the paper."});
-  v(s.weights, Field{"weights",
-                     "",
-                     {},
-                     "What the visibility is an integral over; decides the sun's shadow only."});
+  v(s.technique,
+    Field{"technique",
+          "",
+          {},
+          "What the light is looked up with: the normal, the bent normal or the cone."});
+  v(s.geometric_term,
+    Field{
+        "geometric_term",
+        "",
+        {},
+        "Multiply by the cosine between bent normal and normal (Klehm et al. 2011, section 3.4)."});
+  v(s.normalisation,
+    Field{"normalisation",
+          "",
+          {},
+          "Scale of a cone's light: constant light stays constant, or as published."});
+  v(s.weights,
+    Field{"weights",
+          "",
+          {},
+          "Weighting of the visibility: cosine or uniform; only matters for the sun's shadow."});
 }
 
 // Images of one size, in eye space. An empty view is left out where the technique does not need it.

@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-// What lies behind the first surface of a depth image.
+// How thick matter is assumed to be behind each depth sample.
 enum class OccluderKind {
   kSolid,      // matter without end: the papers' assumption
   kThickness,  // matter of one thickness along each view ray, between front and back only

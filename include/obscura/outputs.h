@@ -11,7 +11,7 @@ namespace obscura {
 struct Outputs {
   // In [0, 1]; 1 is open. Cosine-weighted unless the method's page says otherwise.
   ImageView<float> visibility{};
-  // Mean unoccluded direction over the hemisphere, uniform weights (bent normals and cones,
+  // Mean unoccluded direction over the hemisphere, uniform weights (Klehm et al. 2011,
   // section 3.1), as a unit vector in eye space.
   VectorView<float> bent_normal{};
   // Half-angle in radians, [0, pi/2], of the cone around bent_normal.

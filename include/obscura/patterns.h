@@ -48,11 +48,12 @@ struct OBSCURA_EXPERIMENTAL PatternSettings {
 };
 template <FieldsOf<PatternSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.count, Field{"count", "samples", closed(1, 256), "Size of the pattern."});
-  v(s.center, Field{"center", "", {}, "One sample of a disk stays at the centre."});
-  v(s.starts, Field{"starts", "", closed(1, 10000), "Random starting sets; the best result wins."});
+  v(s.count, Field{"count", "samples", closed(1, 256), "Samples in the pattern."});
+  v(s.center, Field{"center", "", {}, "Keep one sample of a disk at the centre."});
+  v(s.starts,
+    Field{"starts", "", closed(1, 10000), "Random starting sets; the best result is taken."});
   v(s.steps, Field{"steps", "", closed(1, 100000), "Steps taken from each start."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 OBSCURA_API OBSCURA_EXPERIMENTAL Status make_disk_pattern(const PatternSettings& settings,

@@ -40,13 +40,17 @@ template <FieldsOf<PointSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   visit_fields(s.dual, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.pattern, Field{"pattern", "", {}, "Samples in the ball or on the screen."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.pattern,
+    Field{"pattern", "", {}, "Test points in the ball, or surface points found on the screen."});
   v(s.samples,
-    Field{"samples", "per pixel", closed(1, 64), "Size of the pattern; screen: up to 32."});
-  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+    Field{"samples", "per pixel", closed(1, 64), "Samples in the pattern; up to 32 with screen."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random in each pixel."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
 template <>

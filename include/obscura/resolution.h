@@ -17,8 +17,7 @@ struct EnumNames<Resolution> {
 };
 
 inline Field resolution_field() {
-  return {
-      "resolution", "", {}, "Work at every pixel, or at a quarter of them and fill in the rest."};
+  return {"resolution", "", {}, "Compute every pixel, or a quarter of them and fill in the rest."};
 }
 
 }  // namespace obscura

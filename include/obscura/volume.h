@@ -69,7 +69,7 @@ struct EnumNames<SolidSide> {
   static constexpr const char* names[] = {"above", "below"};
 };
 
-// How distances beside the surface begin.
+// How distances next to the surface are found.
 enum class DistanceStart {
   kGradient,  // |f| / |grad f|, capped by the distance along the crossing edges: most accurate
   kEdges,     // the paper's: interpolation along the crossing edges
@@ -91,13 +91,13 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.isovalue, Field{"isovalue",
                       "value",
                       {-3.4e38, 3.4e38},
-                      "Value on the surface; a voxel of this value is matter."});
+                      "Isovalue: the value on the surface; a voxel of this value is matter."});
   v(s.solid, Field{"solid", "", {}, "Which side of the isovalue is matter."});
-  v(s.start, Field{"start", "", {}, "How distances beside the surface begin."});
+  v(s.start, Field{"start", "", {}, "How distances next to the surface are found."});
   v(s.sweeps,
-    Field{"sweeps", "", closed(8, 800), "Sweeps at most, rounded up to whole rounds of eight."});
+    Field{"sweeps", "", closed(8, 800), "Sweeps at most, rounded up to a multiple of eight."});
   v(s.converge,
-    Field{"converge", "", {}, "After them sweep on, to 800 at most, until nothing changes."});
+    Field{"converge", "", {}, "Continue after these sweeps until nothing changes, up to 800."});
 }
 
 struct DistanceReport {
@@ -153,9 +153,10 @@ struct OcclusionSettings {
 };
 template <FieldsOf<OcclusionSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.transport, Field{"transport", "", {}, "How visibility is carried through the grid."});
+  v(s.transport,
+    Field{"transport", "", {}, "Scheme by which visibility is carried through the grid."});
   v(s.precision, Field{"precision", "", {}, "How visibilities are stored."});
-  v(s.alpha, Field{"alpha", "", closed(0, 1), "Opacity of matter; under 1 light passes through."});
+  v(s.alpha, Field{"alpha", "", closed(0, 1), "Opacity of matter; below 1 light passes through."});
 }
 
 // A point of the surface: its position in grid space and the unit normal towards the open side.
@@ -217,8 +218,8 @@ OBSCURA_API Status sweep_occlusion(GridView<const float> distance,
                                    const RunOptions& run = {});
 
 // Soft shadow of one light from any direction: a single octant swept on a grid turned so that its
-// axis points to the light (section 4.1). light() of the result gives V alone, without geometry
-// term. `to_light` need not be of unit length.
+// axis points to the light (Singh et al. 2011, section 4.1). light() of the result gives V alone,
+// without geometry term. `to_light` need not be of unit length.
 OBSCURA_API Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
                                 const OcclusionSettings& settings, VisibilityField* field,
                                 const RunOptions& run = {});
@@ -230,9 +231,10 @@ struct MonteCarloSettings {
 };
 template <FieldsOf<MonteCarloSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.rays, Field{"rays", "rays per point", closed(1, 1 << 24), "Rays of the reference."});
-  v(s.start, Field{"start", "voxels", closed(0, 100), "Start of rays along the normal."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.rays, Field{"rays", "rays per point", closed(1, 1 << 24), "Rays per point."});
+  v(s.start,
+    Field{"start", "voxels", closed(0, 100), "Distance along the normal at which rays start."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 // Reference: cosine-weighted visibility of surface points by rays traced through the trilinear

@@ -57,7 +57,7 @@ struct RecordOptions {
 
 // One estimator's pipelines. record() neither allocates nor submits, waits or maps.
 //
-// Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the processor's
+// Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the CPU's
 // Estimator refuses it.
 class OBSCURA_API OBSCURA_EXPERIMENTAL Recorder {
  public:

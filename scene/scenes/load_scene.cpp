@@ -17,7 +17,7 @@ struct SeedOption {
 };
 template <FieldsOf<SeedOption> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 Status find_kind(const std::string& name, const SceneKind** kind) {

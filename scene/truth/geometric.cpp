@@ -78,7 +78,7 @@ class Rho {
   bool any_will_do_ = false;
 };
 
-// What one set of directions says about a pixel.
+// Result of one set of directions for a pixel.
 struct Estimate {
   double visibility = 0;  // mean V
   double error = 0;       // its standard error

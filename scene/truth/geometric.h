@@ -43,12 +43,17 @@ template <FieldsOf<GeometricSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   v(s.rays, Field{"rays", "", closed(1, 1 << 20), "Rays per pixel and kind of output."});
-  v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
-  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace every N-th pixel in x and y only."});
-  v(s.interpolate, Field{"interpolate", "", {}, "Fill the pixels between; else they are NaN."});
-  v(s.offset, Field{"offset", "world units", at_least(0),
-                    "How far off the surface rays start; 0 is 1e-5 scene sizes."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.weighting, Field{"weighting",
+                       "",
+                       {},
+                       "How directions are weighted: by the cosine to the normal, or equally."});
+  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace only every N-th pixel in x and y."});
+  v(s.interpolate,
+    Field{"interpolate", "", {}, "Fill the pixels between; otherwise they are NaN."});
+  v(s.offset,
+    Field{"offset", "world units", at_least(0),
+          "Distance from the surface at which rays start; 0 chooses 1e-5 of the scene size."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 }  // namespace obscura::tools
@@ -59,7 +64,7 @@ template <>
 struct MethodInfo<tools::GeometricSettings> {
   static constexpr const char* name = "geometric";
   static constexpr const char* summary =
-      "The truth on the real geometry of a scene or mesh, by ray tracing";
+      "Reference: rays against the real geometry of a scene or mesh";
   static constexpr const char* page = "docs/scenes.md";
   static constexpr bool on_vulkan = false;
 };

@@ -8,7 +8,8 @@
 
 namespace obscura::tools {
 
-// What a .raw file does not say of itself: x fastest, little-endian unless `big_endian`.
+// What a .raw file does not contain: its layout. x runs fastest, samples are little-endian unless
+// `big_endian`.
 struct RawLayout {
   std::array<int, 3> size{};
   VoxelType type = VoxelType::kU8;

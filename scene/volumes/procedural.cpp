@@ -22,7 +22,7 @@ struct Options {
 template <FieldsOf<Options> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.size, Field{"size", "voxels", closed(2, 2048), "Voxels along each side."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 // Uniform numbers in [0, 1) from a seed (splitmix64).

@@ -24,7 +24,7 @@ bool parse_numbers(std::string_view text, std::vector<double>* values) {
   }
 }
 
-// Runs a loop where it is called: render_surface has its own threads.
+// Runs loops in the calling thread, as render_surface has threads of its own.
 class InlineExecutor : public Executor {
  public:
   int thread_count() const override { return 1; }

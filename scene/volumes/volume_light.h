@@ -8,7 +8,7 @@
 
 namespace obscura::tools {
 
-// What light a picture of a volume shows.
+// The light in a picture of a volume.
 struct VolumeLight {
   enum Kind { kAmbient, kHeadlight, kOctants, kShadow, kTranslucent };
   Kind kind = kAmbient;

@@ -9,8 +9,8 @@
 
 namespace obscura {
 
-// Adds up what the passes of a run take, by name; does nothing, not even read a clock, where nobody
-// asked.
+// Adds up the time of the passes of a run, by name. If nobody asked for it, it does nothing and
+// reads no clock.
 class PassTimer {
  public:
   explicit PassTimer(std::vector<PassTime>* times = nullptr) : times_(times) {

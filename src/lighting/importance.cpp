@@ -41,7 +41,7 @@ class LightTable {
       cumulative_.push_back(sum);
       sum += luminance(environment.radiance(direction(i, 0.5, 0.5))) * kCell;
     }
-    // A part of the directions goes to where the cells' middles saw nothing.
+    // Every cell gets some directions, also those whose centre saw no light.
     const double floor = 0.05 * sum / (kRows * kColumns);
     for (int i = 0; i < kRows * kColumns; ++i) cumulative_[i] += i * floor;
     cumulative_.push_back(1.05 * sum);
@@ -114,8 +114,8 @@ double radical_inverse(int i, int base) {
   return result;
 }
 
-// samples x m x m directions, each pixel's beside each other: sample s of a pixel lies in stratum s
-// of the power.
+// samples x m x m directions; those of one pixel are stored together. Sample s of a pixel lies in
+// stratum s of the light's power.
 std::vector<LightSample> make_samples(const Environment& environment,
                                       const ImportanceSettings& settings) {
   const LightTable table(environment);
@@ -129,7 +129,7 @@ std::vector<LightSample> make_samples(const Environment& environment,
   const std::array<float, 9>& m = settings.world_from_eye;
   for (int cell = 0; cell < cells; ++cell) {
     for (int s = 0; s < settings.samples; ++s) {
-      // Another rank in each stratum.
+      // The pixel's rank differs from stratum to stratum.
       const int rank = (order[cell] + 7 * s) % cells, i = s * cells + rank;
       const double pick = (s + (rank + 0.5) / cells) / settings.samples;
       const double a = radical_inverse(i + 1, 2) + turn_a, b = radical_inverse(i + 1, 3) + turn_b;
@@ -245,7 +245,7 @@ Status light_by_importance(const DepthField& field, const Environment& environme
               samples[static_cast<std::size_t>(cell) * settings.samples + s];
           const float cosine = dot(n, sample.w);
           if (!(cosine > 0)) continue;
-          // Spread over the pattern's pixels and the pixel's samples, never 0.
+          // Offsets differ between the pattern's pixels and between samples; none is 0.
           const double spread = (cell + 0.5) / (m * m) + s * std::numbers::phi;
           const float offset = static_cast<float>(spread - std::floor(spread));
           const float lit = cosine * marcher.visibility(p, n, sample.w, offset);

@@ -40,7 +40,7 @@ class SizeCheck {
   Status status_;
 };
 
-// Rows of any stride, copied to and from one worker's padded memory.
+// Copies rows of any stride to and from the padded memory of one worker.
 class Rows {
  public:
   Rows(int width, int count) : width_(width), memory_(width, count) {}
@@ -109,7 +109,7 @@ lighting::LightFrame make_frame(const PreconvolvedEnvironment::Impl& environment
     for (int i = 0; i < 3; ++i) f.sun[k] += s.world_from_eye[3 * i + k] * sun.direction[i];
     f.sun_rgb[k] = sun.irradiance[k] / std::numbers::pi_v<float>;
   }
-  // A disc of no size would divide by zero.
+  // Avoids a division by zero for a disc of size 0.
   f.sun_radius = std::max(sun.angular_radius, 1e-4f);
   return f;
 }

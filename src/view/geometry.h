@@ -9,8 +9,8 @@
 
 namespace obscura::view {
 
-// A DepthField made uniform, the only form that estimators see: linear positive depth with +inf
-// for background, unit eye-space normals as three planes, the same padding everywhere.
+// A converted DepthField, the only form that estimators see: positive linear depth with +inf for
+// background, unit eye-space normals as three images, the same padding in all images.
 struct Geometry {
   struct Layer {
     AlignedImage<float> front, back;  // linear depth; front = +inf: no matter; back >= front
@@ -30,7 +30,7 @@ struct Geometry {
   Extent visible() const { return guard_band.inside({width, height}); }
 };
 
-// What an estimator reads beside depth.
+// What an estimator needs in addition to depth.
 struct Needs {
   bool normals = false;
   bool back_depth = false;

@@ -21,8 +21,9 @@ bool cuts(const DistanceSettings& settings, const VolumeRange& range) {
              : range.min <= settings.isovalue && settings.isovalue < range.max;
 }
 
-// One round of eight sweeps: along z and back, with two sweeps of each plane in either of two
-// stages. A stage needs only its own previous plane, so the second runs one plane behind the first.
+// One round of eight sweeps: along z and back. Each plane is swept in two stages of two orders
+// each. A stage needs only its own previous plane, so the second stage runs one plane behind the
+// first, on another thread.
 bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& second,
                  Executor& executor, Progress& progress) {
   const auto stride = distance.strides();

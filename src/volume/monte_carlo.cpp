@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kBlock = 256;  // points of a task
 
-// Sphere tracing: |D| is how far a ray may go without meeting the surface. Swept distances are too
-// long by up to a few per cent, and near the surface a step of a fraction of a voxel goes on.
+// Sphere tracing: |D| is how far a ray may go without meeting the surface. Swept distances are up
+// to a few per cent too long; near the surface the least step is a fraction of a voxel.
 class Tracer {
  public:
   explicit Tracer(const GridView<const float>& distance)

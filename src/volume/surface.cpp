@@ -217,7 +217,7 @@ class Renderer {
     }
   }
 
-  // Where matter is cut: the border's normal, or against a ray that starts within.
+  // The normal where matter is cut: that of the border, or against the ray if it starts in matter.
   Vec3 cut_normal(const SurfaceRays& rays, int i, const Vec3& index) const {
     Vec3 direction;
     for (int a = 0; a < 3; ++a) direction[a] = rays.direction[a][i] * grid_.spacing[a];

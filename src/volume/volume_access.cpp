@@ -101,7 +101,7 @@ Status volume_range(const VolumeView& volume, VolumeRange* range, const RunOptio
       add_row_to_range(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
     }
   });
-  // Plane after plane, whatever the threads.
+  // Planes are added in order, so that the result does not depend on the threads.
   PlaneRange all;
   for (const PlaneRange& plane : planes) {
     all.min = std::min(all.min, plane.min);

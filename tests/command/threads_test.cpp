@@ -44,9 +44,8 @@ class ThreadsTest : public CommandTest {
       most = std::max(most, count);
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        << arguments << "\n"
-        << read_file(path("stderr.txt"));
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << arguments << "\n"
+                                                               << read_file(path("stderr.txt"));
     return most;
   }
   void expect_one_thread(const std::string& arguments) {

@@ -89,7 +89,7 @@ TEST_F(VulkanLine, GivenNormalsAndEveryKindOfDepth) {
   }
 }
 
-// Sizes around those of a tile; the blur knows nothing of what the guard band hides.
+// Sizes around that of a tile; the blur does not read results of the guard band.
 TEST_F(VulkanLine, BlurAgrees) {
   for (const auto& [w, h] : {std::pair{1, 1}, {5, 40}, {33, 25}, {97, 75}}) {
     for (bool orthographic : {false, true}) {
@@ -127,14 +127,15 @@ TEST_F(VulkanLine, EveryFormatOfVisibility) {
   }
 }
 
-// What a temporal filter lives on: 16 frames together know more than one.
+// A temporal filter needs this: the mean of 16 frames has a smaller error than one frame.
 TEST_F(VulkanLine, FramesTakeDifferentPatterns) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 7);
   LineSettings s = line(1);
   s.samples = 5;
   const std::size_t pixels = std::size_t{64} * 48;
   std::vector<float> converged(pixels), v(pixels), mean(pixels, 0.0f);
-  // What the pattern of five gives turned at random; more patterns are another integral.
+  // The mean over random rotations of the pattern of five; another pattern would give another
+  // integral.
   LineSettings many = s;
   for (; many.seed <= 64; ++many.seed) {
     ASSERT_TRUE(compute(in.field(), many, {.visibility = {v.data(), 64, 48}}).ok());

@@ -101,7 +101,7 @@ TEST(FarFieldDirections, UniformIntegralCarriesTheVisibility) {
           EXPECT_GE(r.planes[Result::kCone][i], 0);
           EXPECT_LE(r.planes[Result::kCone][i], kHalfPi + 1e-4);
         }
-        // Finite matter is counted in sectors, whose directions are their piece's.
+        // Finite occluders are counted in sectors; a sector has the mean direction of its piece.
         EXPECT_LT(mean / count, occluder.kind == OccluderKind::kSolid ? 1e-4 : 2e-2);
       }
     }
@@ -155,8 +155,8 @@ TEST(FarFieldDirections, AgreeWithTracedOnes) {
   }
 }
 
-// Sharing directions among 3x3 pixels, turning segments and leaving out lines change the mean
-// little and nothing where all is open.
+// Separable evaluation, jitter and a larger line step change the mean little, and nothing where all
+// is open.
 TEST(FarFieldSharing, StaysNearTheFullEvaluation) {
   const synthetic::Input in = scene();
   struct Variant {

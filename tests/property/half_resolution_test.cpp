@@ -37,8 +37,8 @@ HorizonSettings horizon(Resolution resolution) {
   return s;
 }
 
-// What the method sees, by another way: an image of every second pixel and the camera whose pixel
-// centres those are.
+// The image that the method gets, made in another way: every second pixel, and a camera with these
+// pixel centres.
 TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
   Random random(3);
   for (int i = 0; i < 8; ++i) {
@@ -100,7 +100,8 @@ TEST(HalfResolution, PlanesStayOpenAndTheirBentNormalsAreTheNormal) {
   }
 }
 
-// A wall with a board in front of it: what is between two seen pixels takes the side that it is on.
+// A wall with a board in front of it: a pixel between two computed ones takes the value of its own
+// surface.
 TEST(HalfResolution, NothingCrossesAnEdge) {
   const int w = 60, h = 40;
   synthetic::Input in = synthetic::plane(w, h, Camera::perspective(1, w, h), 0, 0, 1, 6);
@@ -112,7 +113,7 @@ TEST(HalfResolution, NothingCrossesAnEdge) {
   s.interleave = 1;
   const Result r = run(in.field(), s, false);
   for (int y = 4; y < h - 4; ++y) {
-    // Seen: 28, 30 on the board and 32, 34 on the wall, which the board darkens.
+    // Computed pixels: 28, 30 on the board and 32, 34 on the wall, which the board darkens.
     const float* row = r.visibility.data() + std::size_t(y) * w;
     EXPECT_GT(row[30], row[32] + 0.1f);
     EXPECT_NEAR(row[29], 0.5f * (row[28] + row[30]), 1e-5f);
@@ -133,7 +134,7 @@ TEST(HalfResolution, WhatNoSeenPixelLiesBesideIsOpen) {
   EXPECT_NEAR(r.cone[3 * w + 5], 1.5707963f, 1e-6f);
 }
 
-// Every method, odd sizes and guard bands: near what the whole image gives.
+// Every method, odd sizes and guard bands: close to the result at full resolution.
 TEST(HalfResolution, EveryMethodIsNearItself) {
   for (const auto& [w, h] : {std::pair{1, 1}, {2, 3}, {97, 64}}) {
     for (bool orthographic : {false, true}) {

@@ -131,8 +131,8 @@ TEST(Horizon, SlicesAgreeWithRaysThroughTheDepthField) {
   }
 }
 
-// A plate far in front of a wall, farther than the radius: the published method drops it, the
-// solid depth field hangs its matter through the sphere.
+// A plate in front of a wall, farther away than the radius. The published method ignores it; a
+// solid depth image fills the sphere behind it with matter.
 TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
   synthetic::Input in =
       synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);
@@ -151,7 +151,7 @@ TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
   EXPECT_NEAR(visibility(in, s)[beside], 1, 1e-3);
 }
 
-// Down to what single texels in place of interpolated ones cost.
+// The difference is the cost of single texels instead of interpolated ones.
 TEST(Horizon, MoreSamplesComeCloserToTheTruth) {
   const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 8);
   ReferenceSettings truth;

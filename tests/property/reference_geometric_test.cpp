@@ -89,7 +89,7 @@ double error_of(const View& view, const Occluder& occluder) {
   return c.e_a;
 }
 
-// Errors (e_A, per cent) of the four models of what lies behind the first surface.
+// Errors (e_A: mean |difference|, per cent) of the four models of thickness.
 struct Errors {
   double solid = 0, thickness = 0, back_depth = 0, layers = 0;
 };

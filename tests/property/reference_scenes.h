@@ -9,8 +9,8 @@
 #include "obscura/estimator.h"
 #include "tests/property/synthetic.h"
 
-// Depth fields whose visibility can be written down, and the checker that holds the reference
-// against it.
+// Depth images whose visibility has a closed form, and a checker that compares the reference with
+// it.
 namespace obscura::reference_scenes {
 
 struct Vec {
@@ -168,7 +168,7 @@ inline Status compare(const Scene& scene, const ReferenceSettings& settings, Dif
   return {};
 }
 
-// What the closed forms ask of 4,096 rays.
+// The thresholds for closed forms with 4,096 rays.
 constexpr double kBias = 0.001, kRms = 0.005;
 inline bool agrees(const Difference& d) {
   return d.pixels > 0 && std::abs(d.bias) <= kBias && d.rms <= kRms;

@@ -114,8 +114,8 @@ TEST(Volumetric, TiltedPlanesAreOpen) {
       if (i % 3 == 0) in.normals.clear();
       if (i % 4 == 1) in.guard_band = {9, 3, 5, 7};
       const std::vector<float> v = visibility(in, m.settings);
-      // Not where the sphere reaches behind the camera, nor where a float's grain is a hundredth of
-      // the sphere.
+      // Not where the sphere reaches behind the camera, and not where float precision is a
+      // hundredth of the sphere.
       double worst = 0;
       for (std::size_t k = 0; k < v.size(); ++k) {
         const std::size_t x = k % in.visible().width + in.guard_band.left;
@@ -242,7 +242,7 @@ TEST(Volumetric, OtherOccludersAreRefused) {
   }
 }
 
-// What is thin occludes no more than what is solid, and what is thicker than the sphere as much.
+// A thin object occludes no more than a solid one, and an object thicker than the sphere as much.
 TEST(Volumetric, ThicknessLiesBetweenOpenAndSolid) {
   const synthetic::Input in = synthetic::blocks(80, 60, Camera::perspective(0.8f, 80, 60), 7);
   for (Named m : methods()) {

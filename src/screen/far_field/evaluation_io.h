@@ -6,7 +6,7 @@
 
 // What both evaluations have in common, solid and finite occluders.
 #define OBSCURA_EVALUATION                                                                 \
-  IO_NUMBER(kWhole, 0); /* modes; the other two are of section 10 */                       \
+  IO_NUMBER(kWhole, 0); /* modes; the others: Timonen 2013, section 10 */                  \
   IO_NUMBER(kNearAlone, 1);                                                                \
   IO_NUMBER(kFarAlone, 2);                                                                 \
   IO_THREADS(32, 4);                                                                       \
@@ -19,7 +19,7 @@
   IO_CONSTANT(6, int, kSegments, 2);                                                       \
   IO_CONSTANT(7, bool, kJitter, false);                                                    \
   IO_READS(0, Tables, uvec4, quads);                                                       \
-  IO_READS(1, Kappa, float, kappa);                                                        \
+  IO_READS(1, OrthoOffset, float, ortho_offset);                                           \
   IO_READS(2, Lattice, float, lattice);                                                    \
   IO_READS(3, Receivers, vec4, receivers);                                                 \
   IO_UPDATES(4, PlaneSums, float, sums);                                                   \

@@ -1,5 +1,5 @@
-// Section 10's groups (totals.cpp, average_groups): which of 3x3 neighbours see a pixel's surface, and
-// their mean depth and normal.
+// Groups of 3x3 pixels (Timonen 2013, section 10; totals.cpp, average_groups): which of 3x3
+// neighbours see the pixel's surface, and their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "screen/far_field/far_field_average_io.h"

@@ -1,6 +1,6 @@
 // What both evaluations have in common (solid and finite occluders): a pixel an invocation, a few
 // directions in registers. Invocations beside each other read neighbouring texels and lines; which of
-// them is a table's affair (lines.h), equal for a row: the processor's numbers to the last bit.
+// them is a table's affair (lines.h), equal for a row: the CPU's numbers to the last bit.
 // After a header with OBSCURA_EVALUATION (evaluation_io.h); afterwards: evaluate_slice().
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"

@@ -1,5 +1,5 @@
-// Section 10 (totals.cpp, gather): each pixel takes the far field of its accepted neighbours, each of
-// which has a ninth of the directions: nine times their mean.
+// The far field of 3x3 pixels (Timonen 2013, section 10; totals.cpp, gather): each pixel takes nine
+// times the mean of its accepted neighbours, each of which has a ninth of the directions.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"

@@ -1,4 +1,4 @@
-// For parallel view rays twice the greatest depth (Plane::kappa), so that what is interpolated grows
+// For parallel view rays twice the greatest depth (Plane::ortho_offset), so that what is interpolated grows
 // towards the camera and is 0 on the background. In two steps: groups of pixels, then the groups.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -110,7 +110,7 @@ void main() {
   const Direction d = direction_at(at.z);
   vec3 found = no_piece();
   if (at.x < d.lines && at.y < int(d.strips.x)) {
-    const int start = at.y * kInterval - d.phase;
+    const int start = at.y * kInterval - d.strip_offset;
     const int first = max(start, 0), end = min(start + kInterval, plane_size().y);
     if (kFinite) {
       found = scan_matter(d, at.x, first, end);

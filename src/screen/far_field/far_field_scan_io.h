@@ -11,7 +11,7 @@ IO_THREADS(kLinesPerGroup, kStripsPerGroup);
 IO_CONSTANT(0, int, kInterval, 10);
 IO_CONSTANT(1, bool, kFinite, false);
 IO_READS(0, Tables, uvec4, quads);
-IO_READS(1, Kappa, float, kappa);
+IO_READS(1, OrthoOffset, float, ortho_offset);
 IO_READS(2, Lattice, float, lattice);
 IO_READS(3, Back, float, backs);
 IO_WRITES(4, Raw, vec2, raw);        // nearest, slanted

@@ -1,6 +1,6 @@
-// Section 7's sums over the lines of each strip (scan_simd.cpp, sum_lines), a strip per group.
+// Sums (Timonen 2013, section 7) over the lines of each strip (scan_simd.cpp, sum_lines), a strip per group.
 //
-// The processor sums in double, for a float sum over 2,400 lines loses 7e-5 of the depth. Here sums
+// The CPU sums in double, for a float sum over 2,400 lines loses 7e-5 of the depth. Here sums
 // restart every 2^shift lines, the least power of two that no receiver's interval exceeds at that
 // level of the pyramid, so that an interval crosses at most one restart: entry i is the sum over
 // the lines from the restart before line i - 1 up to and with that line.

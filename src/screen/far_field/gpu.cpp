@@ -86,13 +86,13 @@ class FarFieldProgram {
     namespace io = far_field_range_io;
     constexpr int kGroups = 256;
     const int partial = program_->add_region(kGroups * sizeof(float));
-    kappa_ = program_->add_region(sizeof(float));
+    ortho_offset_ = program_->add_region(sizeof(float));
     for (bool last : {false, true}) {
       const int count = last ? kGroups : frame_.shape.width * frame_.shape.height;
       program_->add({.name = "fill",
                      .shader = shaders::far_field_range,
                      .slots = {{io::kDepthAt, last ? partial : depth_},
-                               {io::kGreatestAt, last ? kappa_ : partial}},
+                               {io::kGreatestAt, last ? ortho_offset_ : partial}},
                      .size = {last ? 1 : kGroups, 1},
                      .push = push_words(io::Push{.count = count, .last = last})});
     }
@@ -132,7 +132,7 @@ class FarFieldProgram {
                    {io::kReceiversAt, receivers},
                    {io::kLatticeAt, regions(p).lattice},
                    {io::kTurnedAt, turned},
-                   {io::kKappaAt, kappa_},
+                   {io::kOrthoOffsetAt, ortho_offset_},
                    {io::kBackAt, regions(p).back},
                    {io::kGivenBackAt, back_}},
          .size = lattice ? Extent{p.stride, p.height} : p.visible,
@@ -162,7 +162,7 @@ class FarFieldProgram {
                    .shader = shaders::far_field_scan,
                    .constants = {{io::kInterval, settings_.interval}, {io::kFinite, finite()}},
                    .slots = {{io::kTablesAt, tables()},
-                             {io::kKappaAt, kappa_},
+                             {io::kOrthoOffsetAt, ortho_offset_},
                              {io::kLatticeAt, regions(p).lattice},
                              {io::kBackAt, regions(p).back},
                              {io::kRawAt, raw_},
@@ -251,7 +251,7 @@ class FarFieldProgram {
                             {io::kSegments, settings_.segments},
                             {io::kJitter, settings_.jitter}},
               .slots = {{io::kTablesAt, tables()},
-                        {io::kKappaAt, kappa_},
+                        {io::kOrthoOffsetAt, ortho_offset_},
                         {io::kLatticeAt, regions(p).lattice},
                         {io::kReceiversAt, receivers},
                         {io::kPlaneSumsAt, sums}},
@@ -343,7 +343,7 @@ class FarFieldProgram {
   const SliceSums sums_;
   Program* program_;
   PlaneRegions regions_[2];
-  int depth_ = -1, back_ = -1, normals_ = -1, kappa_ = -1;
+  int depth_ = -1, back_ = -1, normals_ = -1, ortho_offset_ = -1;
   int groups_ = -1, accepted_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };

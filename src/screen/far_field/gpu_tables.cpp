@@ -56,7 +56,7 @@ void FarFieldTables::make_batches(const PlaneShape& plane) {
   };
   for (const Direction& d : directions_) {
     if (d.transposed != plane.transposed) continue;
-    const StripLevels levels(plane.height, d.phase, settings_.interval);
+    const StripLevels levels(plane.height, d.strip_offset, settings_.interval);
     const int lines = LineLayout(plane.width, plane.height, d, settings_.line_step).lines;
     Batch larger = batch;
     larger.directions.push_back(&d);
@@ -158,9 +158,9 @@ void FarFieldTables::make_tables(Batch* batch) {
   int raw_base = 0, sum_base = 0, quad = b.table;
   for (const Direction* d : b.directions) {
     const LineLayout layout(p.width, p.height, *d, settings_.line_step);
-    const StripLevels levels(p.height, d->phase, settings_.interval);
+    const StripLevels levels(p.height, d->strip_offset, settings_.interval);
     for (const auto& [word, value] :
-         {std::pair{0, d->sign}, {1, d->group}, {2, d->phase}, {3, layout.lines}}) {
+         {std::pair{0, d->sign}, {1, d->group}, {2, d->strip_offset}, {3, layout.lines}}) {
       quads_.set(quad, word, value);
     }
     quads_.set(quad + 1, 0, quads_.size());
@@ -197,7 +197,7 @@ void FarFieldTables::add_merges(Batch* batch) {
   int deepest = 0;
   std::vector<StripLevels> pyramids;
   for (const Direction* d : batch->directions) {
-    pyramids.emplace_back(batch->plane->height, d->phase, settings_.interval);
+    pyramids.emplace_back(batch->plane->height, d->strip_offset, settings_.interval);
     deepest = std::max(deepest, pyramids.back().levels());
   }
   for (int level = kSharedLevels; level < deepest; ++level) {

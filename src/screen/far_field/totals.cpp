@@ -132,7 +132,7 @@ void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& 
 }
 
 void average_groups(const view::Geometry& g, Executor& executor, Groups* groups) {
-  constexpr float kLeastCosine = 0.5f, kDepthRatio = 0.03f;  // section 10
+  constexpr float kLeastCosine = 0.5f, kDepthRatio = 0.03f;  // Timonen 2013, section 10
   const int width = g.visible().width, height = g.visible().height;
   const int left = g.guard_band.left, top = g.guard_band.top;
   groups->depth.resize(width, height);

@@ -37,7 +37,7 @@ auto plan_spheres(const Settings& settings, MakeFrame frame) {
   return plan;
 }
 
-// On the processor: the method of one sphere or of both, with the blur if `blur` says so.
+// On the CPU: the method of one sphere or of both, with the blur if `blur` says so.
 // make(frame) gives the method of one sphere; `width` x `height` is the whole depth image.
 template <class Settings, class Frame, class Make>
 std::unique_ptr<Method> make_spheres(const Settings& settings, const Spheres<Frame>& plan,

@@ -13,8 +13,8 @@
 
 float rho_integral(float z, float lateral) { return kQuadratic ? quadratic_line(z, lateral) : z; }
 
-// Section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma. Integral of rho times
-// it over [-zs, zs].
+// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma.
+// Integral of rho times visibility over [-zs, zs].
 float integral(float mu, float sigma, float zs, float half_line, float lateral) {
   const float end = mu + sigma;
   const float lo = clamp(mu - sigma, -zs, zs), hi = clamp(end, -zs, zs);

@@ -12,7 +12,7 @@ namespace obscura {
 // Blocks of so many pixels see all turns of the pattern (core/reflection_noise.h).
 inline constexpr int kScreenPatternInterleave = 4;
 
-// On the processor: point samples on the screen (PointPattern::kScreen) of one sphere, with their
+// On the CPU: point samples on the screen (PointPattern::kScreen) of one sphere, with their
 // own blur if settings.blur: neighbours whose patterns differ are put together as in
 // filters/interleaved. `width` x `height` is the whole depth image.
 //

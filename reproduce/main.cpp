@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   cli.add_option("--data", a.data,
                  "Folder with further inputs: meshes/kitchen.ply, depth/*.pfm, volumes/*.nii.gz")
       ->type_name("FOLDER");
-  cli.add_option("--threads", a.threads, "Threads; 0 takes every processor [0 to 1024, default 0]")
+  cli.add_option("--threads", a.threads, "Threads; 0 uses all processors [0 to 1024, default 0]")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   cli.add_flag("-q,--quiet", a.quiet, "Print errors only");

@@ -17,7 +17,8 @@ struct Program {
   const char* summary;
 };
 constexpr Program kPrograms[] = {
-    {"bench", "Run the benchmarks; flags are Google Benchmark's (--benchmark_filter=REGEX, ...)"},
+    {"bench",
+     "Run the benchmarks; takes the flags of Google Benchmark (--benchmark_filter=REGEX, ...)"},
     {"reproduce", "Measure one of the papers' tables or figures again: Markdown, JSON, pictures"},
 };
 

@@ -2,6 +2,8 @@
 // their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "screen/far_field/groups_leaf.h"
 #include "gpu/view.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
@@ -10,8 +12,6 @@ layout(binding = 0) readonly buffer Depth { float depth[]; };
 layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
 layout(binding = 2) writeonly buffer Groups { vec4 groups[]; };     // normal, depth
 layout(binding = 3) writeonly buffer Accepted { uint accepted[]; };  // bit 3 (dy + 1) + dx + 1
-
-const float kLeastCosine = 0.5, kDepthRatio = 0.03;
 
 float depth_at(ivec2 p) { return depth[(p.y + view.top) * view.width + p.x + view.left]; }
 
@@ -30,8 +30,7 @@ void main() {
     const ivec2 n = p + ivec2(bit % 3, bit / 3) - 1;
     if (any(lessThan(n, ivec2(0))) || any(greaterThanEqual(n, size))) continue;
     const float other = depth_at(n);
-    // The background is in no group.
-    if (!(own < kInf && abs(other - own) <= kDepthRatio * own)) continue;
+    if (!same_depth(own, other)) continue;
     const vec3 m = normals[n.y * size.x + n.x].xyz;
     if (dot(m, normal) <= kLeastCosine && bit != 4) continue;
     mask |= 1u << bit;

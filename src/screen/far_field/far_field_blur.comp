@@ -4,9 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
+#include "math/cone_leaf.h"
+#include "screen/far_field/groups_leaf.h"
 #include "gpu/view.glsl"
 
-const int kWidth = 32, kHeight = 8, kReach = 2;
+const int kWidth = 32, kHeight = 8;
 layout(local_size_x = 32, local_size_y = 8) in;
 layout(constant_id = 0) const int kSums = 0;  // SliceSums
 layout(constant_id = 1) const bool kPaperCone = false;
@@ -22,7 +24,7 @@ layout(binding = 2) readonly buffer Totals { float totals[]; };
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"
 
-const float kWeights[] = float[](1, 2, 3, 2, 1), kThreshold = 0.07 * kPi, kDepthRatio = 0.03;
+const int kReach = kBlurReach;
 const int kStride = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
 
 shared vec2 tile[kRows * kStride];  // obscurance, depth; no depth outside
@@ -52,11 +54,8 @@ void main() {
     const ivec2 d = ivec2(i % 5, i / 5);
     const ivec2 k = d - kReach;
     const vec2 other = tile[at + k.y * kStride + k.x];
-    if (!(other.y < kInf && abs(other.x - own.x) <= kThreshold &&
-          abs(other.y - own.y) <= kDepthRatio * own.y)) {
-      continue;
-    }
-    const float weight = kWeights[d.x] * kWeights[d.y];
+    if (!blurs(own.x, other.x, own.y, other.y)) continue;
+    const float weight = blur_weight(abs(k.x), abs(k.y));
     weights += weight;
     if (kSums == 0) {
       sums.obscurance += weight * other.x;

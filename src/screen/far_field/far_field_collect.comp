@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
+#include "math/cone_leaf.h"
 #include "gpu/view.glsl"
 
 const int kTile = 32;

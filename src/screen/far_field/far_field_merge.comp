@@ -2,6 +2,12 @@
 // makes: in pairs, for what is joined depends on the order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
+#include "screen/far_field/scan_leaf.h"
 #define PASS_CONSTANTS int merges, line_stride;
 #include "gpu/view.glsl"
 
@@ -11,7 +17,6 @@ layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
 layout(binding = 1) buffer Pieces { vec4 pieces[]; };
 
 const bool kFinite = true;
-float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }
 #include "screen/far_field/far_field_pieces.glsl"
 
 void main() {

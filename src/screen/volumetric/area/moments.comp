@@ -20,7 +20,6 @@ layout(binding = 0) readonly buffer Depth { float depth[]; };
 layout(binding = 1) buffer Moments { uvec2 moments[]; };
 
 const int kTile = 16, kReach = 4, kSide = kTile + 2 * kReach;
-const float kWeights[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 
 // Share of surface, mean and variance.
 shared vec3 cells[kSide * kSide];
@@ -37,7 +36,7 @@ vec3 load(ivec2 p) {
 vec3 merge(vec3 cell[5]) {
   float w[5], m[5], v[5], sum = 0.0;
   for (int k = 0; k < 5; ++k) {
-    w[k] = kWeights[k] * cell[k].x;
+    w[k] = kMomentWeights[k] * cell[k].x;
     m[k] = cell[k].y;
     v[k] = cell[k].z;
     sum += w[k];

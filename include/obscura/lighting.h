@@ -129,8 +129,8 @@ Status light(const LightingInputs& inputs, const PreconvolvedEnvironment& enviro
 
 // Bent normal and cone whose cosine-weighted moments are those given, pixel by pixel: for light
 // that is linear in direction the bent cone is then exact under any visibility. `cosine_integral`
-// is Outputs::cosine_integral and `visibility` its cosine-weighted visibility. Outputs may be
-// inputs.
+// is Outputs::cosine_integral and `visibility` its cosine-weighted visibility. The angle is 0 where
+// that is 0 (obscura/cone.h). Outputs may be inputs.
 Status cones_from_cosine_integral(const ImageView<const float>& visibility,
                                   const VectorView<const float>& cosine_integral,
                                   const VectorView<float>& bent_normal,

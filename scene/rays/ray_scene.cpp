@@ -1,12 +1,11 @@
 #include "scene/rays/ray_scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-
-#include "fmt/format.h"
 
 namespace obscura::tools {
 namespace {
@@ -91,7 +90,7 @@ Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene, int thread
   std::unique_ptr<RayScene> made(new RayScene(std::move(input)));
   const Mesh& mesh = made->mesh_;
   Embree& e = *made->embree_;
-  e.device = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  e.device = rtcNewDevice(nullptr);
   if (!e.device) return {StatusCode::kInternal, "Embree offers no device on this processor"};
   e.scene = rtcNewScene(e.device);
   // Robust: rays do not slip through edges. The context's filter collects all hits of a ray.
@@ -125,7 +124,10 @@ Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene, int thread
     }
     attach(g, kSpheres);
   }
-  rtcCommitScene(e.scene);
+  // Embree works on TBB's threads; an arena says on how many. (The device's own limit would start
+  // a thread when it ends.)
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] { rtcCommitScene(e.scene); });
   if (rtcGetDeviceError(e.device) != RTC_ERROR_NONE) {
     return {StatusCode::kOutOfMemory, "Embree could not prepare the mesh for rays"};
   }
@@ -220,13 +222,14 @@ void RayScene::distances(Vec3 origin, const Bundle& bundle, float far, bool near
   alignas(64) RTCRayHit16 r;
   const float o[3] = {float(origin.x), float(origin.y), float(origin.z)};
   for (int i = 0; i < kLanes; ++i) {
+    const int k = i < bundle.count ? i : 0;  // Embree checks the rays of unused lanes too
     valid[i] = i < bundle.count ? -1 : 0;
     r.ray.org_x[i] = o[0];
     r.ray.org_y[i] = o[1];
     r.ray.org_z[i] = o[2];
-    r.ray.dir_x[i] = bundle.x[i];
-    r.ray.dir_y[i] = bundle.y[i];
-    r.ray.dir_z[i] = bundle.z[i];
+    r.ray.dir_x[i] = bundle.x[k];
+    r.ray.dir_y[i] = bundle.y[k];
+    r.ray.dir_z[i] = bundle.z[k];
     r.ray.tnear[i] = 0;
     r.ray.tfar[i] = far;
     r.ray.time[i] = 0;

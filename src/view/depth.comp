@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "view/depth_leaf.h"

@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "math/leaf_glsl.h"
 #include "view/normals_leaf.h"
 #include "view/normals_io.h"
 #include "gpu/view.glsl"

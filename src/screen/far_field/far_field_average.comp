@@ -2,6 +2,7 @@
 // neighbours see the pixel's surface, and their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
 #include "screen/far_field/groups_leaf.h"
 #include "screen/far_field/far_field_average_io.h"
 #include "gpu/view.glsl"

@@ -11,8 +11,6 @@
 #include "gpu/results.glsl"
 #include "gpu/view.glsl"
 
-const int kReach = 2;
-
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"
 

@@ -6,6 +6,7 @@
 // the lines from the restart before line i - 1 up to and with that line.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "view/taps_leaf.h"

@@ -3,6 +3,7 @@
 // (filters/interleaved).
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "view/taps_leaf.h"

@@ -2,6 +2,7 @@
 // them in shared memory. Means or minima of the finite depths among four; 0 where none is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
 #include "screen/mipmap/mipmap_leaf.h"
 #include "screen/mipmap/mipmap_pyramid_io.h"
 #include "gpu/view.glsl"

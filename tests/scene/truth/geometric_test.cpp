@@ -211,6 +211,18 @@ TEST(Geometric, WrongCosineIsNoticed) {
   EXPECT_GT(deviation(r, result.visibility, [](Vec3, Vec3) { return 0.25; }).rms, kRms);
 }
 
+// Rays are traced in bundles of 16; a pixel may have fewer, or a rest.
+TEST(Geometric, AnyNumberOfRaysIsTraced) {
+  const Rendering r = render("scene:hall?size=16x9");
+  for (const int rays : {1, 4, 15, 17}) {
+    GeometricSettings settings;
+    settings.rays = rays;
+    Result result(r);
+    ASSERT_TRUE(trace_geometric(r, settings, result.all()).ok());
+    for (const float v : result.visibility) EXPECT_TRUE(v >= 0 && v <= 1) << rays;
+  }
+}
+
 // In a groove that opens towards the camera the open directions are a lune around +z, whose
 // integrals are elementary.
 TEST(Geometric, DirectionsInAGroove) {

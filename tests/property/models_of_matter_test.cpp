@@ -103,7 +103,7 @@ TEST(ModelsOfMatter, InTheScenes) {
 
 TEST(ModelsOfMatter, OfTheBunny) {
   const std::string path =
-      std::string(OBSCURA_SOURCE_DIR) + "/../shared/data/meshes/stanford-bunny.obj";
+      OBSCURA_SOURCE_DIR "/../shared/data/meshes/stanford-bunny.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the bunny is not there: " << path;
   Rendering r;
   tools::MeshOptions options;

@@ -296,7 +296,7 @@ TEST_F(LoadMesh, PosesThatCannotBeAreRefused) {
 }
 
 TEST_F(LoadMesh, SharedMeshes) {
-  const std::string folder = std::string(OBSCURA_SOURCE_DIR) + "/../shared/data/meshes/";
+  const std::string folder = OBSCURA_SOURCE_DIR "/../shared/data/meshes/";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes beside the sources";
   const std::pair<const char*, std::size_t> files[] = {{"stanford-bunny.obj", 69451},
                                                        {"cornell/CornellBox-Sphere.obj", 2188}};

@@ -17,7 +17,7 @@ TEST(Methods, EachIsFoundByItsName) {
   for_each_method([&](auto info, const auto& defaults) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
     EXPECT_NE(std::string_view(info.summary), "");
-    EXPECT_TRUE(std::filesystem::exists(OBSCURA_SOURCE_DIR "/" + info.page))
+    EXPECT_TRUE(std::filesystem::exists(std::string(OBSCURA_SOURCE_DIR) + "/" + info.page))
         << info.page;
     MethodSettings made;
     ASSERT_TRUE(make_settings(info.name, &made).ok());

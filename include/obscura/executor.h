@@ -30,7 +30,7 @@ class FunctionRef<R(Args...)> {
 // Runs loops on threads. Implement it to lend Obscura the host's own job system.
 class OBSCURA_API Executor {
  public:
-  virtual ~Executor() = default;
+  virtual ~Executor();
 
   // How many calls may run at the same time, at least 1.
   virtual int thread_count() const = 0;

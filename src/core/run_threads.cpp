@@ -4,6 +4,9 @@
 
 namespace obscura {
 
+// Here, so that the class has one table of functions, in the library.
+Executor::~Executor() = default;
+
 void RunThreads::set(const RunOptions& options) {
   status_ = {};
   executor_ = options.executor;

@@ -48,15 +48,22 @@ class ThreadsTest : public CommandTest {
                                                                << read_file(path("stderr.txt"));
     return most;
   }
+  // Threads of a command that computes nothing: one, and those that libraries start as they are
+  // loaded and that never work (the log that OpenVDB brings has four).
+  int idle_threads() {
+    int most = 0;
+    for (int i = 0; i < 5; ++i) most = std::max(most, most_threads("settings"));
+    return most;
+  }
   void expect_one_thread(const std::string& arguments) {
-    EXPECT_EQ(most_threads(arguments + " -q --threads 1"), 1) << arguments;
+    EXPECT_EQ(most_threads(arguments + " -q --threads 1"), idle_threads()) << arguments;
   }
 };
 
 // The count sees threads where there are some.
 TEST_F(ThreadsTest, SeveralThreadsAreSeen) {
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "there is one processor";
-  EXPECT_GT(most_threads("ao scene:hall --size 320x180 -o v.exr -q --threads 2"), 1);
+  EXPECT_GT(most_threads("ao scene:hall --size 320x180 -o v.exr -q --threads 2"), idle_threads());
 }
 
 TEST_F(ThreadsTest, AmbientVisibility) {

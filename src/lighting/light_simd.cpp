@@ -13,6 +13,12 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
+namespace HWY_NAMESPACE {
+namespace leaf {
+#include "math/cone_leaf.h"
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+
 namespace lighting {
 namespace HWY_NAMESPACE {
 

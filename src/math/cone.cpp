@@ -3,6 +3,9 @@
 #include "math/leaf_scalar.h"
 
 namespace obscura {
+namespace leaf_scalar {
+#include "math/cone_leaf.h"
+}  // namespace leaf_scalar
 float cone_cosine(float mean_length) { return leaf_scalar::cap_cosine(mean_length); }
 
 float cone_angle(ConeEstimate estimate, float mean_length) {

@@ -22,8 +22,8 @@ LEAF(Real) cap_cosine_of_cosine_mean(Real mean_length) {
   return leaf_min(real(0.5f) * (root - k), real(1.0f));
 }
 
-// Where the uniform integral is shorter than this next to nothing is open, and its direction is
-// noise.
+// Where the uniform integral is no longer than this, or twice the uniform visibility no more, next
+// to nothing is open, and the direction is noise.
 const float kLeastOpen = 1e-3f;
 
 // |N_ss| = |N| / (2 AO); 1, as of the narrowest opening, where no direction is open.
@@ -49,7 +49,7 @@ LEAF(BentCone)
 bent_cone(bool paper, Real x, Real y, Real z, Real twice_ambient, Real nx, Real ny, Real nz) {
   Real square = leaf_fma(x, x, leaf_fma(y, y, z * z));
   Truth open = leaf_both(leaf_less(real(kLeastOpen * kLeastOpen), square),
-                         leaf_less(real(0.0f), twice_ambient));
+                         leaf_less(real(kLeastOpen), twice_ambient));
   Real scale = leaf_inverse_sqrt(leaf_max(square, real(1e-30f)));
   BentCone cone;
   cone.x = leaf_select(open, x * scale, nx);

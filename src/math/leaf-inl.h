@@ -102,7 +102,6 @@ LEAF(Bits) leaf_bits_below(Real place) {
 #include "math/slab_leaf.h"
 // After slab_leaf.h.
 #include "math/azimuth_leaf.h"
-#include "math/cone_leaf.h"
 #include "math/sphere_line_leaf.h"
 
 }  // namespace leaf

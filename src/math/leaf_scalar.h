@@ -44,7 +44,6 @@ LEAF(Int) leaf_and(Int a, Int b) { return a & b; }
 #include "math/slab_leaf.h"
 // After slab_leaf.h.
 #include "math/azimuth_leaf.h"
-#include "math/cone_leaf.h"
 
 }  // namespace obscura::leaf_scalar
 

@@ -9,18 +9,18 @@ using VulkanClosed = VulkanTest;
 
 constexpr int kSide = 33, kMiddle = kSide / 2 * kSide + kSide / 2;
 
-// A hole a pixel wide and 3,000 pixels deep: from its ground no direction is open.
+// A hole a pixel wide and 1,250 pixels deep: from its ground no direction is open.
 synthetic::Input hole() {
-  synthetic::Input in =
-      synthetic::plane(kSide, kSide, Camera::orthographic_height(0.01f, kSide, kSide), 0, 0, 1, 1);
-  in.depth[kMiddle] = 2;
+  synthetic::Input in = synthetic::plane(
+      kSide, kSide, Camera::orthographic_height(0.08f * kSide, kSide, kSide), 0, 0, 1, 1);
+  in.depth[kMiddle] = 101;
   return in;
 }
 
 // A closed point has its normal and the angle 0: in every method that gives directions, on the
 // processor and on Vulkan.
 TEST_F(VulkanClosed, PointsHaveOneDirectionAndOneAngle) {
-  const Falloff falloff{.kind = FalloffKind::kConstant, .radius = 1.9f};
+  const Falloff falloff{.kind = FalloffKind::kConstant, .radius = 190};
   HemisphereSettings hemisphere;
   hemisphere.falloff = {.kind = FalloffKind::kConstant, .radius = 1};
   hemisphere.blur = false;
@@ -29,7 +29,7 @@ TEST_F(VulkanClosed, PointsHaveOneDirectionAndOneAngle) {
   horizon.blur = false;
   HorizonSettings classic = horizon;
   classic.variant = HorizonVariant::kClassic;
-  classic.falloff.radius = 1e4f;  // its weights fall with the distance
+  classic.falloff.radius = 1e6f;  // its weights fall with the distance
   classic.angle_bias = 0;
   FarFieldSettings far_field;
   far_field.falloff = falloff;

@@ -14,6 +14,7 @@ namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
 #include "filters/edge_leaf.h"
+#include "math/cone_leaf.h"
 }  // namespace leaf
 
 namespace {

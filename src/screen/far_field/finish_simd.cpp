@@ -8,8 +8,14 @@
 #include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::far_field {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "math/cone_leaf.h"
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+
+namespace far_field::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace leaf = obscura::HWY_NAMESPACE::leaf;
@@ -52,8 +58,8 @@ void AddRay(const RayJob& job) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::far_field
+}  // namespace far_field::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -5,6 +5,7 @@
 #include "apps/obscura/app.h"
 #include "fmt/format.h"
 #include "io/report/progress_bar.h"
+#include "obscura/simd.h"
 #include "obscura/version.h"
 
 namespace obscura::app {
@@ -69,6 +70,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return fail(e.what(), kBadUsage);
   }
+  if (Status s = limit_simd_from_environment(); !s.ok()) return fail(s.message(), kBadUsage);
   tools::catch_interrupts();
   const Status status = app.action();
   if (!status.ok()) return fail(status.message(), exit_code(status));

@@ -7,6 +7,7 @@
 
 #include "fmt/format.h"
 #include "obscura/executor.h"
+#include "obscura/simd.h"
 #include "obscura/version.h"
 
 namespace obscura::tools {
@@ -82,10 +83,9 @@ std::string Report::to_markdown() const {
 }
 
 nlohmann::ordered_json describe_machine() {
-  return {{"processor", processor_name()},
-          {"threads", make_executor()->thread_count()},
-          {"simd", simd_target()},
-          {"compiler", compiler()},
+  return {{"processor", processor_name()}, {"threads", make_executor()->thread_count()},
+          {"simd", simd_target()},         {"simd_targets", simd_targets()},
+          {"simd_limit", simd_limit()},    {"compiler", compiler()},
           {"obscura", version()}};
 }
 

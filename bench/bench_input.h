@@ -5,7 +5,7 @@
 
 namespace obscura::bench {
 
-// What the screen-space methods are timed on, without a guard band.
+// The input of the benchmarks of screen-space methods, without a guard band.
 tools::DepthInput bench_input(int width, int height);
 
 }  // namespace obscura::bench

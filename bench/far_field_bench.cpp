@@ -40,9 +40,9 @@ void far_field_run(benchmark::State& state) {
   std::vector<float> result(static_cast<std::size_t>(width) * height);
   Outputs outputs;
   outputs.visibility = {result.data(), width, height};
-  if (!Estimator::create(settings, field.depth.width, field.depth.height, threads, &estimator)
-           .ok() ||
-      !estimator.run(field, outputs).ok()) {
+  const RunOptions options{.threads = threads};
+  if (!Estimator::create(settings, field.depth.width, field.depth.height, &estimator).ok() ||
+      !estimator.run(field, outputs, options).ok()) {
     return state.SkipWithError("the input was refused");
   }
   for (float v : result) {
@@ -51,7 +51,7 @@ void far_field_run(benchmark::State& state) {
   std::vector<double> times;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    if (!estimator.run(field, outputs).ok()) return state.SkipWithError("the run failed");
+    if (!estimator.run(field, outputs, options).ok()) return state.SkipWithError("the run failed");
     times.push_back(seconds_since(start));
   }
   std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
@@ -70,7 +70,7 @@ BENCHMARK(far_field_run)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// The default K = 16x2 alone, and with the direction from the same slices beside it, in turns.
+// The default K = 16x2 without and with directions, measured alternately.
 void far_field_direction(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
   const tools::DepthInput input = guarded(width, height);
@@ -86,17 +86,18 @@ void far_field_direction(benchmark::State& state) {
   plain.visibility = directed.visibility = view(0);
   directed.bent_normal = {view(1), view(2), view(3)};
   directed.cone_angle = view(4);
-  if (!Estimator::create(settings, field.depth.width, field.depth.height, 1, &estimator).ok() ||
-      !estimator.run(field, directed).ok()) {
+  const RunOptions options{.threads = 1};
+  if (!Estimator::create(settings, field.depth.width, field.depth.height, &estimator).ok() ||
+      !estimator.run(field, directed, options).ok()) {
     return state.SkipWithError("the input was refused");
   }
   double without = 1e9, with = 1e9;
   for (auto _ : state) {
     auto start = std::chrono::steady_clock::now();
-    if (!estimator.run(field, plain).ok()) return state.SkipWithError("the run failed");
+    if (!estimator.run(field, plain, options).ok()) return state.SkipWithError("the run failed");
     without = std::min(without, seconds_since(start));
     start = std::chrono::steady_clock::now();
-    if (!estimator.run(field, directed).ok()) return state.SkipWithError("the run failed");
+    if (!estimator.run(field, directed, options).ok()) return state.SkipWithError("the run failed");
     with = std::min(with, seconds_since(start));
   }
   state.counters["without_ms"] = without * 1e3;

@@ -25,9 +25,9 @@ void horizon_run(benchmark::State& state) {
   Outputs outputs;
   outputs.visibility = {result.data(), width, height};
   Estimator estimator;
-  if (!Estimator::create(settings, width, height, static_cast<int>(state.range(3)), &estimator)
-           .ok() ||
-      !estimator.run(field, outputs).ok()) {
+  const RunOptions options{.threads = static_cast<int>(state.range(3))};
+  if (!Estimator::create(settings, width, height, &estimator).ok() ||
+      !estimator.run(field, outputs, options).ok()) {
     return state.SkipWithError("the input was refused");
   }
   for (float v : result) {
@@ -36,7 +36,7 @@ void horizon_run(benchmark::State& state) {
   std::vector<double> times;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    if (!estimator.run(field, outputs).ok()) return state.SkipWithError("the run failed");
+    if (!estimator.run(field, outputs, options).ok()) return state.SkipWithError("the run failed");
     times.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }

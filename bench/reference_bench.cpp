@@ -6,8 +6,9 @@
 #include <memory>
 
 #include "core/progress.h"
+#include "obscura/reference.h"
 #include "scene/scenes/load_scene.h"
-#include "screen/reference/plan.h"
+#include "screen/method.h"
 
 namespace obscura::bench {
 namespace {
@@ -27,10 +28,10 @@ std::unique_ptr<Setup> make_setup(const ReferenceSettings& settings, const char*
   auto s = std::make_unique<Setup>();
   if (!tools::load_scene(scene, &s->input).ok()) return nullptr;
   s->executor = make_executor(threads);
-  if (!make_reference(settings, &s->method).ok()) return nullptr;
+  if (!make_method(settings, s->input.width, s->input.height, &s->method).ok()) return nullptr;
   const DepthField field = s->input.field();
   if (!view::convert(field, s->method->needs(), *s->executor, &s->geometry).ok()) return nullptr;
-  const int w = s->geometry.visible_width(), h = s->geometry.visible_height();
+  const int w = s->geometry.visible().width, h = s->geometry.visible().height;
   s->visibility.resize(static_cast<std::size_t>(w) * h);
   s->error.resize(s->visibility.size());
   s->outputs.visibility = {s->visibility.data(), w, h};
@@ -44,7 +45,8 @@ std::unique_ptr<Setup> make_setup(const ReferenceSettings& settings, const char*
   return s;
 }
 
-// Two seeds differ as their standard errors say, and no pixel lies outside [0, 1].
+// Checks that two seeds differ by as much as their standard errors, and that every pixel is in [0,
+// 1].
 bool plausible(Setup* s, ReferenceSettings settings) {
   const std::function<bool(double)> no_progress;
   const RunContext context{*s->executor, no_progress};
@@ -52,7 +54,7 @@ bool plausible(Setup* s, ReferenceSettings settings) {
   const std::vector<float> first = s->visibility;
   settings.seed += 1;
   std::unique_ptr<Method> other;
-  if (!make_reference(settings, &other).ok()) return false;
+  if (!make_method(settings, s->input.width, s->input.height, &other).ok()) return false;
   if (!other->run(s->geometry, s->outputs, context).ok()) return false;
   double differences = 0, variances = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -84,7 +86,8 @@ void run(benchmark::State& state, const ReferenceSettings& settings, const char*
   state.counters["Mrays/s/thread"] = rate / threads;
 }
 
-// The bar: 3 million rays per second and thread on the hall at 1280x720, rho reaching across it.
+// Goal: 3 million rays per second and thread on the hall at 1280x720, with a radius as long as the
+// hall.
 void reference(benchmark::State& state, Occluder occluder) {
   ReferenceSettings settings;
   settings.falloff.radius = 20;

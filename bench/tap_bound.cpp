@@ -61,8 +61,8 @@ double tap_bound_seconds(const float* base, int begin, int end, int runs, const 
   for (int row = begin; row < end; ++row) {
     index.clear();
     taps(row, &index);
-    // Making the indices has emptied the caches of what a kernel would find there from the row
-    // before: a first pass brings it back, untimed.
+    // Making the indices has evicted from the caches what a kernel would find there from the row
+    // before. A first pass, not timed, loads it again.
     total += fastest_seconds(runs, [&] {
       benchmark::DoNotOptimize(HWY_DYNAMIC_DISPATCH(LoadTaps)(base, index.data(), index.size()));
     });

@@ -17,7 +17,7 @@ int tap_lanes();
 // valid index.
 using RowTaps = std::function<void(int row, std::vector<std::int32_t>* index)>;
 
-// Processor time of this thread: what other programs take of the machine does not count.
+// CPU time of this thread, so that other programs on the machine do not count.
 double thread_seconds();
 
 // The fastest of `runs` calls after one that is not timed, in thread_seconds() less what reading
@@ -35,9 +35,10 @@ double fastest_seconds(int runs, F f) {
   return fastest;
 }
 
-// The least time that any method with these taps needs: the thread_seconds() it takes to load each
-// tap of rows [begin, end) once, lane by lane as the kernels do and with warm caches, on one
-// thread. Of each row the fastest of `runs` counts: other programs on the machine only ever add.
+// The tap bound: the least time that any method with these taps needs. It loads each tap of rows
+// [begin, end) once, lane by lane as the kernels do, with warm caches, on one thread, in
+// thread_seconds(). The fastest of `runs` counts for each row, since other programs can only make
+// it slower.
 double tap_bound_seconds(const float* base, int begin, int end, int runs, const RowTaps& taps);
 
 }  // namespace obscura::bench

@@ -54,8 +54,8 @@ class Gyroid {
   std::vector<float> values, distance;
 };
 
-// Processor time is what a busy machine leaves comparable; with one thread it is the wall's on an
-// idle one.
+// CPU time stays comparable on a busy machine; with one thread it equals the wall-clock time of an
+// idle machine.
 struct Seconds {
   double wall = 0, processor = 0;
 };
@@ -168,7 +168,7 @@ void fog_to_sdf(benchmark::State& state) {
   if (!tools::has_openvdb()) return state.SkipWithError("this build has no OpenVDB");
   const int n = static_cast<int>(state.range(0));
   Gyroid g(n);
-  // Closed at the border, which counts as a surface to OpenVDB where matter reaches it.
+  // Closed at the border: OpenVDB takes the border for a surface where matter reaches it.
   for (int i = 0; i < n * n * n; ++i) {
     const int x = i % n, y = i / n % n, z = i / n / n;
     const int depth = std::min({x, y, z, n - 1 - x, n - 1 - y, n - 1 - z});
@@ -176,7 +176,7 @@ void fog_to_sdf(benchmark::State& state) {
   }
   const int threads = static_cast<int>(state.range(1));
   auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   if (!sweep_distance(g.view(), {}, g.grid(), run).ok()) return state.SkipWithError("refused");
   const std::vector<float> ours = g.distance;
@@ -276,7 +276,7 @@ void transport(benchmark::State& state) {
   Gyroid g(static_cast<int>(state.range(0)));
   g.distance = g.values;
   auto executor = make_executor(static_cast<int>(state.range(2)));
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   OcclusionSettings settings;
   settings.transport = static_cast<Transport>(state.range(1));

@@ -69,8 +69,8 @@ void time(benchmark::State& state, Setup* s, Method* method) {
   state.counters["best_ms"] = *std::min_element(times.begin(), times.end()) * 1e3;
 }
 
-// Share of a sample of pixels that differ from the double-precision evaluation; taps on the border
-// of two texels may fall to either side.
+// Share of tested pixels that differ from the evaluation in double precision. A tap on the border
+// between two texels may read either.
 template <class Reference>
 bool agrees(const Setup& s, const Reference& reference) {
   int pixels = 0, wrong = 0;
@@ -103,8 +103,9 @@ void find_taps(const view::Geometry& g, float radius, std::span<const Sample> pa
   }
 }
 
-// Which fraction of its tap bound the kernel reaches with a fixed pattern (y down). Both run under
-// the same conditions, by turns: a few rows with warm caches, the fastest of some runs.
+// The fraction of its tap bound that the kernel reaches with a fixed pattern (y down). Both are
+// measured alternately under the same conditions: a few rows with warm caches, the fastest of
+// several runs.
 template <class Sample>
 void report_bound(benchmark::State& state, Setup* s, Method* method,
                   std::span<const Sample> pattern) {
@@ -154,7 +155,7 @@ void line(benchmark::State& state, int width, int height) {
   auto s = make_setup(state.range(1) != 0, static_cast<int>(state.range(3)), width, height);
   std::unique_ptr<Method> method;
   const auto settings = settings_of<LineSettings>(state, *s);
-  if (!make_line(settings, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   const std::span<const DiskSample> pattern = disk_pattern(settings.samples, false);
@@ -169,7 +170,7 @@ void point(benchmark::State& state, int width, int height) {
   auto s = make_setup(state.range(1) != 0, static_cast<int>(state.range(3)), width, height);
   std::unique_ptr<Method> method;
   const auto settings = settings_of<PointSettings>(state, *s);
-  if (!make_point(settings, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   const std::span<const BallSample> pattern = ball_pattern(settings.samples);
@@ -208,7 +209,7 @@ void area(benchmark::State& state, int width, int height) {
     return;
   }
   std::unique_ptr<Method> method;
-  if (!make_area(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
+  if (!make_method(settings, width, height, &method).ok() || !s->run(method.get()).ok()) {
     return state.SkipWithError(kRefused);
   }
   // Where all is at one depth, half of the sphere is open, or with normals all of it.

@@ -1,4 +1,5 @@
-# Compiles SHADER to SPIR-V and writes it to HEADER as obscura::vulkan::shaders::NAME.
+# Compiles SHADER to SPIR-V and writes it to HEADER as obscura::gpu::shaders::NAME, together with its
+# interface, whose header IO lies beside the shader.
 get_filename_component(folder ${HEADER} DIRECTORY)
 file(MAKE_DIRECTORY ${folder})
 
@@ -29,10 +30,12 @@ ${scratch_words}};
 ")
 endif()
 file(WRITE ${HEADER}.d "${dependencies}")
-file(WRITE ${HEADER} "#include \"gpu/shader.h\"
-namespace obscura::vulkan::shaders {
+file(WRITE ${HEADER} "#pragma once
+#include \"gpu/shader.h\"
+#include \"${IO}\"
+namespace obscura::gpu::shaders {
 inline constexpr std::uint32_t ${NAME}_words[] = {
 ${words}};
-${scratch_array}inline constexpr Shader ${NAME}{${NAME}_words, ${second}};
+${scratch_array}inline constexpr Shader ${NAME}{${NAME}_words, ${second}, &${NAME}_io::kInterface};
 }
 ")

@@ -142,7 +142,7 @@ class HeadlessVulkan::Impl {
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
              HeadlessTimes* times, const HeadlessFrame& frame, int runs) {
     if (Status s = check(outputs); !s.ok()) return s;
-    const int width = field.visible_width(), height = field.visible_height();
+    const int width = field.visible().width, height = field.visible().height;
     const bool directions = !outputs.bent_normal.empty() || !outputs.cone_angle.empty();
     const vulkan::FrameShape shape{.width = field.depth.width,
                                    .height = field.depth.height,
@@ -201,14 +201,15 @@ class HeadlessVulkan::Impl {
       recorder.record_tables(commands_);
       vkCmdResetQueryPool(commands_, queries_, 0, kQueries);
       const auto start = std::chrono::steady_clock::now();
-      recorder.record(commands_, 0,
-                      {field.camera, field.near_plane, field.far_plane, frame.frame_index},
-                      {.timestamps = queries_, .first_query = 0});
+      const Status status = recorder.record(
+          commands_, 0, {field.camera, field.near_plane, field.far_plane, frame.frame_index},
+          {.timestamps = queries_, .first_query = 0});
       const std::chrono::duration<double, std::micro> recorded =
           std::chrono::steady_clock::now() - start;
       fetch(visibility);
       if (directions) fetch(bent_normal);
       if (Status s = submit(); !s.ok()) return s;
+      if (!status.ok()) return status;
       if (times) report(recorder, recorded.count(), i == 0, times);
     }
     read(visibility, 0, 1, 0, outputs.visibility);

@@ -31,7 +31,7 @@ struct HeadlessPass {
   double bytes = 0;  // Recorder::pass_bytes()
 };
 struct HeadlessTimes {
-  double record_us = 0;  // of Recorder::record() on the processor
+  double record_us = 0;  // of Recorder::record() on the CPU
   std::vector<HeadlessPass> passes{};
 
   double total_ms() const;
@@ -56,7 +56,7 @@ class HeadlessVulkan {
   // What the validation layers had to say, one line each.
   const std::vector<std::string>& messages() const;
 
-  // As compute() on the processor: visibility, bent normal and cone angle; `times` may be null.
+  // As compute() on the CPU: visibility, bent normal and cone angle; `times` may be null.
   // Of several runs the fastest of each pass counts.
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
              HeadlessTimes* times = nullptr, const HeadlessFrame& frame = {}, int runs = 1);

@@ -183,8 +183,9 @@ int main(int argc, char** argv) {
   barrier(gpu, out, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
   // (5) Tables once, the passes in every frame; nothing is allocated, submitted or waited for.
   recorder.record_tables(gpu.commands);
-  recorder.record(gpu.commands, 0, {.camera = obscura::Camera::perspective(1, width, height)});
-  // (6) And visibility to who reads it: here a copy, in a renderer the lighting.
+  require(
+      recorder.record(gpu.commands, 0, {.camera = obscura::Camera::perspective(1, width, height)}));
+  // (6) Visibility becomes visible to its reader: here a copy, in a renderer the lighting.
   barrier(gpu, out, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL);
   vkCmdCopyImageToBuffer(gpu.commands, out, VK_IMAGE_LAYOUT_GENERAL, host, 1, &copy);
   barrier(gpu, out, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL);

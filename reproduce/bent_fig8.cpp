@@ -46,7 +46,7 @@ Status run_cone(const Rendering& rendering, const MethodSettings& settings, cons
                 const Image& truth, Executor& executor, Result* result, Image* rgb) {
   const DepthField field = rendering.gbuffer.field();
   Estimator estimator;
-  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
       !s.ok()) {
     return s;
   }
@@ -75,7 +75,7 @@ Status run_ssdo(const Rendering& rendering, const NamedLight& light, const Image
       .falloff = bent_falloff(rendering), .samples = entry.samples, .steps = entry.steps};
   settings.radiance = light_of_samples(light.convolved, entry.samples, world_from_eye(rendering));
   Estimator estimator;
-  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
       !s.ok()) {
     return s;
   }

@@ -1,4 +1,5 @@
-// Section 5 of bent normals and cones: what directions cost beside visibility alone.
+// Bent normals and cones (Klehm et al. 2011, section 5): what directions cost beside visibility
+// alone.
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -27,7 +28,7 @@ Status time_method(const Rendering& rendering, const MethodSettings& settings, E
   bent.bent_normal = buffers.bent;
   bent.cone_angle = buffers.angle;
   Estimator estimator;
-  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
       !s.ok()) {
     return s;
   }

@@ -39,7 +39,7 @@ Status make_lamps(Executor& executor, Environment* environment) {
     }
   }
   return Environment::from_lat_long(VectorView<float>::interleaved(rgb.data(), kWidth, kHeight),
-                                    environment, nullptr, &executor);
+                                    environment, nullptr, {.executor = &executor});
 }
 
 Status add_light(const std::string& name, const Environment& environment, Executor& executor,
@@ -101,14 +101,18 @@ Status bent_lights(const std::string& data, Executor& executor, std::vector<Name
       if (Status s = open_environment(fmt::format("{}/{}.hdr", folder, name), &source); !s.ok()) {
         return s;
       }
-      if (Status s = load_environment(source, &environment, &repairs, &executor); !s.ok()) return s;
+      if (Status s = load_environment(source, &environment, &repairs, {.executor = &executor});
+          !s.ok())
+        return s;
       if (Status s = add_light(name, environment, executor, lights); !s.ok()) return s;
     }
   } else {
     Environment clear, overcast, lamps;
     const SkySettings without_sun{.elevation_deg = 25, .sun = 0};
-    if (Status s = Environment::from_sky(without_sun, &clear, &executor); !s.ok()) return s;
-    if (Status s = Environment::from_sky({.model = SkyModel::kOvercast}, &overcast, &executor);
+    if (Status s = Environment::from_sky(without_sun, &clear, {.executor = &executor}); !s.ok())
+      return s;
+    if (Status s = Environment::from_sky({.model = SkyModel::kOvercast}, &overcast,
+                                         {.executor = &executor});
         !s.ok()) {
       return s;
     }
@@ -118,7 +122,9 @@ Status bent_lights(const std::string& data, Executor& executor, std::vector<Name
     if (Status s = add_light("lamps", lamps, executor, lights); !s.ok()) return s;
   }
   Environment sky, sunny;
-  if (Status s = Environment::from_sky({.elevation_deg = 35}, &sky, &executor); !s.ok()) return s;
+  if (Status s = Environment::from_sky({.elevation_deg = 35}, &sky, {.executor = &executor});
+      !s.ok())
+    return s;
   Sun sun = sky.sun();
   sun.angular_radius = kSunRadius;
   if (Status s = sky.with_sun(sun, &sunny); !s.ok()) return s;

@@ -13,7 +13,7 @@ Status reproduce_ffao_table4(const ReproduceContext& context, Report* report, st
 Status reproduce_ffao_fig7(const ReproduceContext& context, Report* report, std::string* text);
 // Errors and times of many settings, from which the presets are chosen.
 Status reproduce_ffao_front(const ReproduceContext& context, Report* report, std::string* text);
-// What the far field is held to, each figure beside its bar.
+// Regression thresholds of the far field, each figure beside its threshold.
 Status reproduce_ffao_bars(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_error_vs_time(const ReproduceContext& context, Report* report, std::string* text);
 

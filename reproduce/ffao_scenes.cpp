@@ -106,7 +106,7 @@ Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& 
   const DepthField field = view.rendering.gbuffer.field();
   const Outputs outputs = visibility_to(view, &run->visibility);
   Estimator estimator;
-  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
       !s.ok()) {
     return s;
   }

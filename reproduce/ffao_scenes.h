@@ -51,7 +51,7 @@ struct FfaoRun {
 Status run_ffao(const FfaoView& view, const MethodSettings& settings, Executor& executor,
                 FfaoRun* run, int runs = 3);
 
-// Truths: of the depth field as the occluder says (solid in the paper), and of the world.
+// Truths: of the depth field as the occluder says (solid in the paper), and of the real geometry.
 Status trace_depth_field(const FfaoView& view, const TruthGrid& grid, Executor& executor,
                          std::vector<float>* truth, const Occluder& occluder = {});
 Status trace_world(const FfaoView& view, const TruthGrid& grid, Executor& executor,

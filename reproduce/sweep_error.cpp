@@ -74,7 +74,7 @@ Figures compare(const std::vector<float>& a, const std::vector<float>& b) {
 
 Status reproduce_sweep_error(const ReproduceContext& context, Report* report, std::string* text) {
   const auto executor = make_executor(context.threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   const std::vector<Case> volumes = cases(context.data);
   constexpr Transport kTransports[] = {Transport::kPaper, Transport::kFast, Transport::kBalanced,
@@ -138,7 +138,7 @@ Status reproduce_sweep_error(const ReproduceContext& context, Report* report, st
 // Figure 3: the sweeps beside Monte Carlo, as they are and with the paper's gamma of 2.
 Status reproduce_sweep_fig3(const ReproduceContext& context, Report* report, std::string* text) {
   const auto executor = make_executor(context.threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   SweepScene scene;
   const std::string spec = fmt::format("volume:pillars?size={}", kSide);

@@ -129,9 +129,10 @@ Image SweepScene::picture(const std::vector<float>& values) const {
   return grey_picture(ImageView<const float>(all.data(), side, side));
 }
 
-Status load_sweep_scene(const SweepSource& source, int side, const VolumeRun& run,
+Status load_sweep_scene(const SweepSource& source, int side, const RunOptions& run,
                         SweepScene* scene) {
-  if (Status s = load_volume(source.spec, {}, &scene->image); !s.ok()) return s;
+  const int threads = run.executor ? run.executor->thread_count() : run.threads;
+  if (Status s = load_volume(source.spec, {}, &scene->image, threads); !s.ok()) return s;
   thin(source.every, &scene->image);
   const VolumeImage& image = scene->image;
   DistanceSettings settings;

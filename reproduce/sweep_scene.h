@@ -33,7 +33,7 @@ struct SweepSource {
 };
 
 // Loads a volume, sweeps distances, and traces the view.
-Status load_sweep_scene(const SweepSource& source, int side, const VolumeRun& run,
+Status load_sweep_scene(const SweepSource& source, int side, const RunOptions& run,
                         SweepScene* scene);
 
 }  // namespace obscura::tools

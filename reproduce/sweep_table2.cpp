@@ -54,7 +54,7 @@ double time_of(const std::function<Status()>& f, Status* status) {
 // Mean distance error in voxels of the sweep and of OpenVDB's, of a shape with a known distance.
 Status compare_accuracy(const char* name,
                         const std::function<double(double, double, double)>& shape,
-                        const VolumeRun& run, int threads, Report* report) {
+                        const RunOptions& run, int threads, Report* report) {
   constexpr int kSide = 96;
   std::vector<float> exact, fog;
   for (int z = 0; z < kSide; ++z) {
@@ -95,7 +95,7 @@ double box(double x, double y, double z) {
 
 Status reproduce_sweep_table2(const ReproduceContext& context, Report* report, std::string* text) {
   const auto executor = make_executor(context.threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   Status status;
   int done = 0;

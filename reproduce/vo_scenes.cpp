@@ -66,7 +66,7 @@ Status vo_visibility(const DepthInput& input, MethodSettings settings, std::uint
                      Executor* executor, std::vector<float>* visibility) {
   std::visit(SetSeed{seed}, settings);
   const DepthField field = input.field();
-  const int width = field.visible_width(), height = field.visible_height();
+  const int width = field.visible().width, height = field.visible().height;
   visibility->resize(static_cast<std::size_t>(width) * height);
   return compute(field, settings, {.visibility = {visibility->data(), width, height}},
                  {.executor = executor});
@@ -76,7 +76,7 @@ Status vo_converged(const DepthInput& input, float radius, int patterns, Executo
                     std::vector<float>* visibility) {
   const LineSettings settings = plain<LineSettings>(radius, 32);
   const DepthField field = input.field();
-  const int width = field.visible_width(), height = field.visible_height();
+  const int width = field.visible().width, height = field.visible().height;
   std::vector<double> sum(static_cast<std::size_t>(width) * height);
   visibility->resize(sum.size());
   for (int i = 0; i < patterns; ++i) {
@@ -96,7 +96,7 @@ Status vo_converged(const DepthInput& input, float radius, int patterns, Executo
 
 double vo_error(const DepthInput& input, const std::vector<float>& a, const std::vector<float>& b) {
   const DepthField field = input.field();
-  const int width = field.visible_width(), height = field.visible_height();
+  const int width = field.visible().width, height = field.visible().height;
   double sum = 0;
   std::int64_t pixels = 0;
   for (int y = 0; y < height; ++y) {

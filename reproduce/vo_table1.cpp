@@ -19,15 +19,17 @@ constexpr int kRuns = 7;       // the median counts
 Status time_frame(const DepthInput& input, const MethodSettings& settings, double* ms) {
   const DepthField field = input.field();
   Estimator estimator;
-  if (Status s = Estimator::create(settings, input.width, input.height, 1, &estimator); !s.ok()) {
+  if (Status s = Estimator::create(settings, input.width, input.height, &estimator); !s.ok()) {
     return s;
   }
-  const int width = field.visible_width(), height = field.visible_height();
+  const int width = field.visible().width, height = field.visible().height;
   std::vector<float> out(static_cast<std::size_t>(width) * height);
   std::vector<double> times;
   for (int i = 0; i <= kRuns; ++i) {
     const Stopwatch watch;
-    if (Status s = estimator.run(field, {.visibility = {out.data(), width, height}}); !s.ok()) {
+    if (Status s =
+            estimator.run(field, {.visibility = {out.data(), width, height}}, {.threads = 1});
+        !s.ok()) {
       return s;
     }
     if (i > 0) times.push_back(1e3 * watch.seconds());  // the first touches memory anew

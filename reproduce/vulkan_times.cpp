@@ -114,7 +114,7 @@ struct Device {
 Status time_row(Device& device, const DepthInput& input, const Row& row, const std::string& name,
                 Report* report, std::string* text) {
   const DepthField field = input.field();
-  const int width = field.visible_width(), height = field.visible_height();
+  const int width = field.visible().width, height = field.visible().height;
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   std::vector<float> values(pixels * (row.directions ? 5 : 1));
   auto view = [&](int i) { return ImageView<float>{values.data() + pixels * i, width, height}; };

@@ -54,7 +54,7 @@ void BackendOptions::add_to(CLI::App* command) {
       ->type_name("N");
 }
 
-Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input, int threads,
+Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input,
                            const Outputs& outputs, const RunOptions& options,
                            std::string* ran_on) const {
   if (backend_ != "cpu" && backend_ != "vulkan" && backend_ != "auto") {
@@ -70,7 +70,7 @@ Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input
     const Status s = run_on_vulkan(device_, automatic, settings, input, outputs, options, ran_on);
     if (s.ok() || !automatic || s.code() != StatusCode::kUnsupported) return s;
   }
-  return run_method(settings, input, threads, outputs, options);
+  return run_method(settings, input, outputs, options);
 }
 
 Status print_devices() {

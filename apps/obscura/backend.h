@@ -8,15 +8,15 @@
 
 namespace obscura::app {
 
-// Where an estimator runs: on the processor, or on a Vulkan device.
+// Where an estimator runs: on the CPU, or on a Vulkan device.
 class BackendOptions {
  public:
   // Adds --backend and --device.
   void add_to(CLI::App* command);
 
   // As run_method(); `ran_on` becomes "cpu" or the device's name.
-  Status run(const AnySettings& settings, const LoadedInput& input, int threads,
-             const Outputs& outputs, const RunOptions& options, std::string* ran_on) const;
+  Status run(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
+             const RunOptions& options, std::string* ran_on) const;
 
  private:
   std::string backend_ = "cpu";

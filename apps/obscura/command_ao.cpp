@@ -55,14 +55,14 @@ Status run_ao(const AoCommand& c, bool quiet) {
   const double loaded = watch.seconds();
 
   const DepthField field = input.field();
-  const Outputs outputs = images.allocate(field.visible_width(), field.visible_height());
+  const Outputs outputs = images.allocate(field.visible().width, field.visible().height);
   tools::ProgressBar bar(c.method.method(), !quiet);
-  RunOptions options;
+  RunOptions options{.threads = c.threads};
   options.progress = [&bar](double share) { return bar(share); };
   std::vector<PassTime> pass_times;
   if (!c.json.empty()) options.pass_times = &pass_times;
   std::string ran_on;
-  if (Status s = c.backend.run(settings, input, c.threads, outputs, options, &ran_on); !s.ok()) {
+  if (Status s = c.backend.run(settings, input, outputs, options, &ran_on); !s.ok()) {
     return s;
   }
   const double computed = watch.seconds();
@@ -90,8 +90,8 @@ Status run_ao(const AoCommand& c, bool quiet) {
   }
   report.add(name, "time to write", 1e3 * (total - computed), "ms");
   if (!quiet && c.json != "-") {
-    fmt::print("{}: {}x{}, {}{}, {:.2f} s\n", c.output, field.visible_width(),
-               field.visible_height(), name,
+    fmt::print("{}: {}x{}, {}{}, {:.2f} s\n", c.output, field.visible().width,
+               field.visible().height, name,
                outputs.visibility.empty()
                    ? ""
                    : fmt::format(", mean visibility {:.3f}", mean(outputs.visibility)),

@@ -11,19 +11,19 @@ namespace obscura::app {
 #ifdef OBSCURA_WITH_BENCH
 void add_bench(App& app) {
   auto flags = std::make_shared<CLI::App*>(nullptr);
-  *flags =
-      app.add_command("bench",
-                      "Run the benchmarks; flags are Google Benchmark's (--benchmark_filter=REGEX, "
-                      "--benchmark_out=FILE.json, --benchmark_list_tests)",
-                      [flags, &app] {
-                        std::vector<std::string> arguments = (*flags)->remaining();
-                        arguments.insert(arguments.begin(), "obscura bench");
-                        std::vector<char*> argv;
-                        for (std::string& a : arguments) argv.push_back(a.data());
-                        argv.push_back(nullptr);
-                        app.exit_code = bench::run(static_cast<int>(arguments.size()), argv.data());
-                        return Status();
-                      });
+  *flags = app.add_command(
+      "bench",
+      "Run the benchmarks; takes the flags of Google Benchmark (--benchmark_filter=REGEX, "
+      "--benchmark_out=FILE.json, --benchmark_list_tests)",
+      [flags, &app] {
+        std::vector<std::string> arguments = (*flags)->remaining();
+        arguments.insert(arguments.begin(), "obscura bench");
+        std::vector<char*> argv;
+        for (std::string& a : arguments) argv.push_back(a.data());
+        argv.push_back(nullptr);
+        app.exit_code = bench::run(static_cast<int>(arguments.size()), argv.data());
+        return Status();
+      });
   (*flags)->allow_extras();
 }
 #else

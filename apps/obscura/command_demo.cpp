@@ -1,4 +1,5 @@
-// obscura demo: two scenes, each by a fast method and by the truth, with the error between them.
+// obscura demo: two scenes, each by a fast method and by ray tracing, and the difference between
+// them.
 #include <filesystem>
 #include <memory>
 
@@ -34,22 +35,23 @@ struct Run {
 Status run_timed(const std::string& label, const AnySettings& settings, const LoadedInput& input,
                  int threads, bool quiet, Run* run) {
   const DepthField field = input.field();
-  run->image = tools::Image(field.visible_width(), field.visible_height());
+  run->image = tools::Image(field.visible().width, field.visible().height);
   run->image.add("visibility");
   tools::ProgressBar bar(label, !quiet);
   const tools::Stopwatch watch;
   const Status status =
-      run_method(settings, input, threads, {.visibility = run->image.view(0)},
-                 {.executor = nullptr, .progress = [&bar](double share) { return bar(share); }});
+      run_method(settings, input, {.visibility = run->image.view(0)},
+                 {.threads = threads, .progress = [&bar](double share) { return bar(share); }});
   run->seconds = watch.seconds();
   return status;
 }
 
+// The pictures say nothing of times, which depend on the machine.
 Status write_pictures(const DemoCommand& c, const std::string& name, const DepthField& field,
                       const Run& method, const Run& truth) {
   auto visible = [&](const ImageView<const float>& v) {
     return ImageView<const float>(&v(field.guard_band.left, field.guard_band.top),
-                                  field.visible_width(), field.visible_height(), v.row_stride);
+                                  field.visible().width, field.visible().height, v.row_stride);
   };
   const auto mask = visible(field.depth);
   const tools::Image depth = tools::depth_picture(mask);
@@ -58,10 +60,10 @@ Status write_pictures(const DemoCommand& c, const std::string& name, const Depth
   const tools::Image fast = tools::grey_picture(method.view());
   const tools::Image traced = tools::grey_picture(truth.view());
   const tools::Image error = tools::error_picture(method.view(), truth.view(), mask);
-  const tools::Image comparison = tools::beside(
-      {{fmt::format("{}, {:.2f} s", kDefaultMethod, method.seconds), fast},
-       {fmt::format("ray-traced truth, {} rays, {:.2f} s", kTruthRays, truth.seconds), traced},
-       {"difference: white 0 %, black 20 % and more", error}});
+  const tools::Image comparison =
+      tools::beside({{kDefaultMethod, fast},
+                     {fmt::format("ray-traced reference, {} rays per pixel", kTruthRays), traced},
+                     {"difference: white 0 %, black 20 % and more", error}});
   const std::pair<const char*, const tools::Image*> pictures[] = {
       {"depth", &depth},  {"normals", &normals}, {"visibility", &fast},
       {"truth", &traced}, {"error", &error},     {"comparison", &comparison}};
@@ -98,7 +100,7 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
 
   tools::Comparison r;
   const ImageView<const float> mask(&field.depth(field.guard_band.left, field.guard_band.top),
-                                    field.visible_width(), field.visible_height(),
+                                    field.visible().width, field.visible().height,
                                     field.depth.row_stride);
   if (s = tools::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
   report->add(name, "time", 1e3 * method.seconds, "ms");
@@ -110,7 +112,7 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
     fmt::print(
         "{}: {}x{}, falloff length {:.3g}: {} {:.2f} s, truth {:.2f} s, e_A {:.2f} %, "
         "e_<5% {:.1f} %, bias {:+.2f} %: {}/{}-*.png\n",
-        name, field.visible_width(), field.visible_height(), radius, kDefaultMethod, method.seconds,
+        name, field.visible().width, field.visible().height, radius, kDefaultMethod, method.seconds,
         truth.seconds, r.e_a, r.within_5, r.bias, c.folder, name);
   }
   return {};

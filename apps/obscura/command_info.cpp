@@ -22,7 +22,7 @@ struct InfoCommand {
 Status run_volume_info(const InfoCommand& c) {
   tools::VolumeImage image;
   nlohmann::ordered_json description;
-  if (Status s = c.volume.load(c.path, &image); !s.ok()) return s;
+  if (Status s = c.volume.load(c.path, 0, &image); !s.ok()) return s;
   if (Status s = tools::describe_volume(image, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(tools::volume_description_text(description).c_str(), stdout);
   if (c.json.empty()) return {};
@@ -60,8 +60,9 @@ Status run_info(const InfoCommand& c) {
 
 void add_info(App& app) {
   auto c = std::make_shared<InfoCommand>();
-  CLI::App* command = app.add_command("info", "What a file holds and how it would be read",
-                                      [c] { return run_info(*c); });
+  CLI::App* command =
+      app.add_command("info", "What a file contains and how the other commands would read it",
+                      [c] { return run_info(*c); });
   command
       ->add_option("FILE", c->path,
                    "Image: EXR, PFM, PNG or HDR; volume: .nii, .nii.gz, .nrrd, .nhdr, .vdb, .raw")

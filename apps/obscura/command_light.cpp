@@ -79,7 +79,7 @@ std::array<float, 9> world_from_eye(const LightCommand& c, const LoadedInput& in
 
 // What the lighting reads, at the visible size.
 struct Buffers {
-  explicit Buffers(const DepthField& f) : image(f.visible_width(), f.visible_height()) {
+  explicit Buffers(const DepthField& f) : image(f.visible().width, f.visible().height) {
     for (const char* name : {"visibility", "angle", "nx", "ny", "nz", "bx", "by", "bz"}) {
       image.add(name);
     }
@@ -107,13 +107,13 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
   }
   const bool library = std::holds_alternative<MethodSettings>(method);
   if (library) outputs.normal = b->normal;
-  if (Status s = run_method(method, input, c.threads, outputs, options); !s.ok()) {
+  if (Status s = run_method(method, input, outputs, options); !s.ok()) {
     if (s.code() != StatusCode::kUnsupported || !bent || c.cones != "cosine") return s;
     return {s.code(), fmt::format("{}; --cones mean does with bent-normal", s.message())};
   }
   if (!library) {
-    for (int y = 0; y < field.visible_height(); ++y) {
-      for (int x = 0; x < field.visible_width(); ++x) {
+    for (int y = 0; y < field.visible().height; ++y) {
+      for (int x = 0; x < field.visible().width; ++x) {
         const std::size_t i = std::size_t(y + g.guard_band.top) * g.width + x + g.guard_band.left;
         b->normal.x(x, y) = g.normal_x[i];
         b->normal.y(x, y) = g.normal_y[i];
@@ -160,7 +160,7 @@ Status light_by_comparator(const LightCommand& c, AnySettings method, const Load
   }
   Outputs outputs;
   outputs.radiance = out;
-  return run_method(method, input, c.threads, outputs, options);
+  return run_method(method, input, outputs, options);
 }
 
 // Light by a technique from what the estimator has left in the buffers.
@@ -302,7 +302,9 @@ Status run_light(const LightCommand& c, bool quiet) {
   const bool compared = c.comparator != "none";
   if (compared || !c.no_background) {
     EnvironmentRepairs same;
-    if (Status s = tools::load_environment(source, &environment, &same, executor.get()); !s.ok()) {
+    if (Status s =
+            tools::load_environment(source, &environment, &same, {.executor = executor.get()});
+        !s.ok()) {
       return s;
     }
   }
@@ -317,6 +319,7 @@ Status run_light(const LightCommand& c, bool quiet) {
   for (const char* name : {"R", "G", "B"}) image.add(name);
   tools::ProgressBar bar(c.method.method(), !quiet);
   RunOptions options;
+  options.executor = executor.get();
   options.progress = [&bar](double share) { return bar(share); };
   const double prepared = watch.seconds();
   Status status = compared ? light_by_comparator(c, method, input, environment, lights,
@@ -405,7 +408,7 @@ void add_light(App& app) {
       ->type_name("DEGREES");
   command
       ->add_option("--heading-deg", c->heading_deg,
-                   "Turns the camera to the right within the environment [default 0]")
+                   "Rotates the camera to the right in the environment [default 0]")
       ->type_name("DEGREES");
   command
       ->add_option("--pitch-deg", c->pitch_deg,
@@ -419,8 +422,8 @@ void add_light(App& app) {
                     "Neither read nor write $XDG_CACHE_HOME/obscura (~/.cache/obscura)");
   command
       ->add_option("--supersample", c->supersample,
-                   "Averages N x N pixels of the lit picture into one, against jagged edges: give "
-                   "an input or --size N times as large [1 to 8, default 1]")
+                   "Averages N x N pixels of the lit picture into one, for smooth edges; the input "
+                   "or --size must be N times as large [1 to 8, default 1]")
       ->check(CLI::Range(1, 8))
       ->type_name("N");
   c->method.add_to(command, kDefaultMethod);

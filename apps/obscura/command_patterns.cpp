@@ -44,8 +44,7 @@ void add_patterns(App& app) {
       ->type_name("");
   command->add_flag("--tables", c->tables,
                     "Print the source of src/screen/volumetric/patterns/pattern_tables.cpp "
-                    "instead: every pattern that "
-                    "ships, made again; takes minutes");
+                    "instead: all patterns of the library, computed again; takes minutes");
   c->options.declare("patterns", PatternSettings{});
   c->options.add_to(command, "Pattern");
 }

@@ -182,7 +182,8 @@ Status choose_isovalue(const VolumeCommand& c, const tools::VolumeImage& image, 
 }
 
 Status write_fields(const VolumeCommand& c, FieldsKind kind, const tools::VolumeImage& image,
-                    const std::vector<float>& distance, const VisibilityField& field) {
+                    const std::vector<float>& distance, const VisibilityField& field,
+                    const RunOptions& run) {
   tools::FieldGrid grid;
   std::vector<tools::NamedField> fields;
   const tools::Double3 h = image.spacing();
@@ -202,7 +203,8 @@ Status write_fields(const VolumeCommand& c, FieldsKind kind, const tools::Volume
       fields.push_back({count == 1 ? "visibility" : fmt::format("visibility_octant_{}", s),
                         std::vector<float>(voxels)});
       const GridView<float> view(fields.back().values.data(), grid.size, spacing);
-      if (Status status = count == 1 ? field.scalar(view) : field.octant(s, view); !status.ok()) {
+      if (Status status = count == 1 ? field.scalar(view, run) : field.octant(s, view);
+          !status.ok()) {
         return status;
       }
     }
@@ -242,7 +244,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   VolumeSettings& settings = p.settings;
   const tools::Stopwatch watch;
   tools::VolumeImage image;
-  if (Status s = c.volume.load(c.input, &image); !s.ok()) return s;
+  if (Status s = c.volume.load(c.input, c.threads, &image); !s.ok()) return s;
   if (Status s = choose_isovalue(c, image, quiet, &settings.distance); !s.ok()) return s;
   const double loaded = watch.seconds();
 
@@ -250,7 +252,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   // Runs one stage under a progress bar of its own.
   auto stage = [&](const char* name, auto&& work) {
     tools::ProgressBar bar(name, !quiet);
-    VolumeRun run;
+    RunOptions run;
     run.executor = executor.get();
     run.progress = [&bar](double share) { return bar(share); };
     return work(run);
@@ -258,7 +260,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   std::vector<float> distances(std::size_t(image.voxels()));
   const VolumeView view = image.view();
   const GridView<float> distance(distances.data(), image.size, view.spacing);
-  Status status = stage("distance", [&](const VolumeRun& run) {
+  Status status = stage("distance", [&](const RunOptions& run) {
     return sweep_distance(view, settings.distance, distance, run);
   });
   if (!status.ok()) return status;
@@ -270,7 +272,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   tools::VolumeTruth truth;
   truth.monte_carlo = settings.picture.method == VolumeMethod::kMonteCarlo;
   truth.settings = settings.monte_carlo;
-  status = stage("light", [&](const VolumeRun& run) {
+  status = stage("light", [&](const RunOptions& run) {
     return shading.prepare(image, distance, p.light, settings.occlusion, truth, run);
   });
   if (!status.ok()) return status;
@@ -290,7 +292,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
     const int width = settings.view.size.width, height = settings.view.size.height;
     tools::Image visibility(width, height), coverage(width, height), depth(width, height);
     for (tools::Image* i : {&visibility, &coverage, &depth}) i->add("Y");
-    status = stage("render", [&](const VolumeRun& run) {
+    status = stage("render", [&](const RunOptions& run) {
       return render_surface({view, settings.distance.isovalue, settings.distance.solid, distance},
                             camera, settings.surface, shading.shader(camera),
                             {visibility.view(0), coverage.view(0), depth.view(0)}, run);
@@ -306,7 +308,8 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
     }
   }
   if (!c.fields.empty()) {
-    status = write_fields(c, settings.picture.fields_of, image, distances, shading.field());
+    status = write_fields(c, settings.picture.fields_of, image, distances, shading.field(),
+                          {.executor = executor.get()});
     if (!status.ok()) return status;
     if (!quiet && c.json != "-") {
       fmt::print("{}: {}\n", c.fields, enum_name(settings.picture.fields_of));
@@ -339,8 +342,8 @@ void add_volume(App& app) {
       ->type_name("LIST");
   command
       ->add_option("--light", c->light,
-                   fmt::format("{}; directions and octants in the world; octants are numbered from "
-                               "(-,-,-), x fastest [default ao]",
+                   fmt::format("{}; directions and octants in world space; octants are numbered "
+                               "from (-,-,-), x fastest [default ao]",
                                tools::VolumeLight::kForm))
       ->type_name("LIGHT");
   c->table.declare("volume", VolumeSettings{});

@@ -4,6 +4,7 @@
 
 #include "apps/obscura/app.h"
 #include "fmt/format.h"
+#include "io/images/exr.h"
 #include "io/report/progress_bar.h"
 #include "obscura/simd.h"
 #include "obscura/version.h"
@@ -89,7 +90,13 @@ CLI::App* App::add_command(const std::string& name, const std::string& descripti
 
 void add_threads_option(CLI::App* command, int* threads) {
   command
-      ->add_option("--threads", *threads, "Threads; 0 takes every processor [0 to 1024, default 0]")
+      ->add_option_function<int>(
+          "--threads",
+          [threads](int given) {
+            *threads = given;
+            tools::set_exr_threads(given);
+          },
+          "Threads; 0 uses all processors [0 to 1024, default 0]")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
 }

@@ -19,25 +19,20 @@ decltype(auto) visit_settings(Settings& settings, F&& f) {
       settings);
 }
 
+std::vector<MethodEntry> list_methods() {
+  std::vector<MethodEntry> list;
+  auto add = [&](auto info, AnySettings defaults) {
+    list.push_back({info.name, info.summary, info.page, info.on_vulkan, std::move(defaults)});
+  };
+  for_each_method([&](auto info, const auto& defaults) { add(info, MethodSettings(defaults)); });
+  add(MethodInfo<tools::GeometricSettings>(), tools::GeometricSettings{});
+  return list;
+}
+
 }  // namespace
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> list = {
-      {"area", "Volumetric obscurance by area samples (Loos and Sloan 2010)", AreaSettings{}},
-      {"far-field", "Far-field ambient obscurance: the whole depth image (Timonen 2013)",
-       FarFieldSettings{}},
-      {"mipmap", "Ambient obscurance from a depth pyramid, the far field's rival",
-       MipmapSettings{}},
-      {"hemisphere", "Directions marched in depth: bent normals and cones (Klehm et al. 2011)",
-       HemisphereSettings{}},
-      {"horizon", "Horizon-based ambient occlusion (Bavoil 2008) and cosine-weighted slices",
-       HorizonSettings{}},
-      {"line", "Volumetric obscurance by line samples (Loos and Sloan 2010)", LineSettings{}},
-      {"point", "Volumetric obscurance by point samples (Mittring 2007)", PointSettings{}},
-      {"ray-traced", "The truth of the depth field itself, by ray tracing", ReferenceSettings{}},
-      {"geometric", "The truth on the real geometry of a scene or mesh, by ray tracing",
-       tools::GeometricSettings{}},
-  };
+  static const std::vector<MethodEntry> list = list_methods();
   return list;
 }
 
@@ -96,21 +91,18 @@ LayerNeeds layer_needs(const AnySettings& settings) {
   });
 }
 
-Status run_method(const AnySettings& settings, const LoadedInput& input, int threads,
-                  const Outputs& outputs, const RunOptions& options) {
+Status run_method(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
+                  const RunOptions& options) {
   if (const auto* geometric = std::get_if<tools::GeometricSettings>(&settings)) {
     if (!input.rendering.scene) {
       return invalid_argument(fmt::format(
           "--method geometric needs a scene or mesh; {} is a depth image", input.depth().name));
     }
-    const auto executor = make_executor(threads);
-    RunOptions with_threads = options;
-    with_threads.executor = executor.get();
-    return tools::trace_geometric(input.rendering, *geometric, outputs, with_threads);
+    return tools::trace_geometric(input.rendering, *geometric, outputs, options);
   }
   Estimator estimator;
   Status status = Estimator::create(std::get<MethodSettings>(settings), input.depth().width,
-                                    input.depth().height, threads, &estimator);
+                                    input.depth().height, &estimator);
   if (status.ok()) status = estimator.run(input.field(), outputs, options);
   // The library knows no file names.
   if (status.code() == StatusCode::kInvalidInput) {
@@ -137,11 +129,14 @@ nlohmann::ordered_json to_json(const AnySettings& settings) {
 std::string settings_markdown() {
   std::string out =
       "# Settings\n\n"
-      "Every method's fields: in C++ by the name given, on the command line as `--name` with `-` "
-      "for `_`.\nMade by `obscura settings`; a test keeps this page and the library in step.\n";
+      "The settings of every method. The names are those of C++; on the command line they are "
+      "`--name` with `-` "
+      "for `_`.\nMade by `obscura settings`; a test compares this page with the library.\n";
   for (const MethodEntry& m : methods()) {
-    out += fmt::format("\n## {}\n\n{}.\n\n| field | meaning | value | unit | default |\n", m.name,
-                       m.summary);
+    const std::string page = m.page + std::string_view("docs/").size();  // from this page
+    out += fmt::format("\n## {}\n\n{} ([page]({})).{}\n\n", m.name, m.summary, page,
+                       m.on_vulkan ? " Also on Vulkan." : "");
+    out += "| field | meaning | value | unit | default |\n";
     out += "|---|---|---|---|---|\n";
     visit_settings(m.defaults, [&](const auto& s) {
       visit_fields(s, [&](const auto& value, const Field& field) {

@@ -15,13 +15,15 @@ namespace obscura::app {
 
 inline constexpr const char* kDefaultMethod = "far-field";
 
-// The library's methods and the truth on the real geometry, which needs a scene or mesh.
+// The methods of obscura/methods.h and the truth on the real geometry, which needs a scene or mesh.
 using AnySettings = std::variant<MethodSettings, tools::GeometricSettings>;
 
-// Every method that --method can name, with its settings at their defaults.
+// Every method that --method can name: what MethodInfo says, with its settings at their defaults.
 struct MethodEntry {
   const char* name;
   const char* summary;
+  const char* page;
+  bool on_vulkan;
   AnySettings defaults;
 };
 const std::vector<MethodEntry>& methods();
@@ -51,8 +53,8 @@ class MethodOptions {
 LayerNeeds layer_needs(const AnySettings& settings);
 
 // Runs any method on a loaded input.
-Status run_method(const AnySettings& settings, const LoadedInput& input, int threads,
-                  const Outputs& outputs, const RunOptions& options);
+Status run_method(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
+                  const RunOptions& options);
 
 // Settings as JSON, field by field.
 nlohmann::ordered_json to_json(const AnySettings& settings);

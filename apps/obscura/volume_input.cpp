@@ -47,7 +47,8 @@ void VolumeInputOptions::add_to(CLI::App* command) {
       ->group(group);
 }
 
-Status VolumeInputOptions::load(const std::string& path, tools::VolumeImage* image) const {
+Status VolumeInputOptions::load(const std::string& path, int threads,
+                                tools::VolumeImage* image) const {
   std::optional<tools::RawLayout> raw;
   if (!size_.empty()) {
     raw.emplace();
@@ -72,7 +73,7 @@ Status VolumeInputOptions::load(const std::string& path, tools::VolumeImage* ima
   if (!clip_.empty()) {
     if (Status s = tools::parse_clip(clip_, &box); !s.ok()) return s;
   }
-  if (Status s = tools::load_volume(path, raw, image); !s.ok()) return s;
+  if (Status s = tools::load_volume(path, raw, image, threads); !s.ok()) return s;
   return clip_.empty() ? Status() : tools::clip(box, image);
 }
 

@@ -13,7 +13,7 @@ class VolumeInputOptions {
  public:
   void add_to(CLI::App* command);
 
-  Status load(const std::string& path, tools::VolumeImage* image) const;
+  Status load(const std::string& path, int threads, tools::VolumeImage* image) const;
 
  private:
   std::string size_, type_, spacing_, clip_;

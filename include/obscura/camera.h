@@ -1,7 +1,9 @@
 #ifndef OBSCURA_CAMERA_H_
 #define OBSCURA_CAMERA_H_
 
+#include "obscura/export.h"
 #include "obscura/status.h"
+#include "obscura/views.h"
 
 namespace obscura {
 
@@ -10,6 +12,10 @@ struct GuardBand {
   int left = 0, right = 0, top = 0, bottom = 0;
 
   static GuardBand symmetric(int x, int y) { return {x, x, y, y}; }
+  // The visible size of an image that is `whole` with its guard band.
+  Extent inside(Extent whole) const {
+    return {whole.width - left - right, whole.height - top - bottom};
+  }
   bool operator==(const GuardBand&) const = default;
 };
 
@@ -18,7 +24,7 @@ struct GuardBand {
 // pixel coordinates (u, v) count from the corner of the whole image, guard band included:
 //   perspective   x = (u - center_u) scale_x depth,  y = (center_v - v) scale_y depth
 //   orthographic  x = (u - center_u) scale_x,        y = (center_v - v) scale_y
-struct Camera {
+struct OBSCURA_API Camera {
   bool orthographic = false;
   float scale_x = 0;   // (0, inf); eye-space width of a pixel at depth 1, or in world units
   float scale_y = 0;   // (0, inf); the same for its height

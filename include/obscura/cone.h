@@ -9,7 +9,7 @@
 // Bent normals and cones (Klehm, Ritschel, Eisemann, Seidel 2011). Three quantities are told apart;
 // V is the visibility of a direction, H the hemisphere above the receiver:
 //   mean unoccluded direction  N_ss = (integral over H of V w) / (integral over H of V),
-//   section 3.1;
+//                              (Klehm et al. 2011, section 3.1);
 //                              length 1/2 where all is open, rising to 1 as the opening narrows
 //   uniform integral           N = 1/pi integral over H of V w, equation 2; length 1 where all is
 //                              open; N = 2 AO N_ss with AO = 1/(2 pi) integral over H of V
@@ -22,7 +22,8 @@ namespace obscura {
 
 enum class ConeEstimate {
   kExact,  // acos(max(0, 2 |N_ss| - 1)): the half-angle itself where the opening is a cap
-  kPaper,  // (1 - max(0, 2 |N_ss| - 1)) pi/2, section 3.2: narrower (45 degrees for a cap of 60)
+  kPaper,  // (1 - max(0, 2 |N_ss| - 1)) pi/2, Klehm et al. 2011, Klehm et al. 2011, section 3.2:
+           // narrower (45 degrees for a cap of 60)
 };
 template <>
 struct EnumNames<ConeEstimate> {

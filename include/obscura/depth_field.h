@@ -54,8 +54,7 @@ struct DepthField {
   ImageView<const float> back_depth{};   // optional: where the first layer's matter ends
   std::span<const DepthLayer> layers{};  // optional: nearest first, for the `layers` occluder
 
-  int visible_width() const { return depth.width - guard_band.left - guard_band.right; }
-  int visible_height() const { return depth.height - guard_band.top - guard_band.bottom; }
+  Extent visible() const { return guard_band.inside({depth.width, depth.height}); }
 };
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 
 namespace obscura {
@@ -20,7 +21,7 @@ struct EnumNames<Combine> {
 // A length that need not be given.
 using OptionalLength = std::optional<float>;
 template <>
-struct SettingText<OptionalLength> {
+struct OBSCURA_API SettingText<OptionalLength> {
   static constexpr const char* form = "none or a number in (0, inf)";
   static bool parse(std::string_view text, OptionalLength* value);
   static std::string write(const OptionalLength& value);
@@ -29,16 +30,16 @@ struct SettingText<OptionalLength> {
 // Volumetric obscurance with a second sphere: small ones show fine features, large ones contact and
 // large-scale shadow.
 struct DualRadius {
-  OptionalLength second_radius{};  // world units, (0, inf)
+  OptionalLength second_radius{};
   Combine combine = Combine::kProduct;
 };
 template <FieldsOf<DualRadius> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.second_radius, Field{"second_radius", "world units", {}, "Radius of a second sphere."});
-  v(s.combine, Field{"combine", "", {}, "How the results of both spheres become one."});
+  v(s.combine, Field{"combine", "", {}, "How the results of both radii are combined."});
 }
 
-Status validate(const DualRadius& dual);
+OBSCURA_API Status validate(const DualRadius& dual);
 
 }  // namespace obscura
 

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "obscura/executor.h"
+#include "obscura/export.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/views.h"
 
@@ -37,11 +38,11 @@ struct EnumNames<SkyModel> {
 // surface shows the radiance `intensity` (luminance; Rec. 709 primaries).
 struct SkySettings {
   SkyModel model = SkyModel::kClear;
-  float elevation_deg = 40;  // the sun's, above the horizon
-  float azimuth_deg = 45;    // the sun's, from -z (ahead of the camera) towards +x (its right)
-  float turbidity = 3;       // haze of the clear sky
-  float intensity = 1;       // radiance of a white horizontal surface under the sky alone
-  float sun = 5;             // luminance facing the sun over horizontal luminance of the sky
+  float elevation_deg = 40;
+  float azimuth_deg = 45;
+  float turbidity = 3;
+  float intensity = 1;
+  float sun = 5;
   float ground_albedo = 0.2f;
 };
 template <FieldsOf<SkySettings> Self, class Visitor>
@@ -70,18 +71,19 @@ struct EnvironmentRepairs {
 };
 
 // Immutable; copies share the data.
-class Environment {
+class OBSCURA_API Environment {
  public:
   // From a latitude-longitude map of linear RGB radiance, twice as wide as high, 4x2 to
   // 32768x16384. Its top row is up (+y), its middle column straight ahead (-z), right of it +x.
   // NaN, negative, infinite and huge values are mended as EnvironmentRepairs says; a map with
   // nothing but NaN or infinity in it is refused. The light is resampled to a cube of 128x128 cells
-  // a face, without loss of energy. Without an executor, every processor is used; the bits are the
-  // same for any number of threads.
+  // a face, without loss of energy. The same bits for any number of threads; of `options` only
+  // they count.
   static Status from_lat_long(const VectorView<const float>& rgb, Environment* environment,
-                              EnvironmentRepairs* repairs = nullptr, Executor* executor = nullptr);
+                              EnvironmentRepairs* repairs = nullptr,
+                              const RunOptions& options = {});
   static Status from_sky(const SkySettings& settings, Environment* environment,
-                         Executor* executor = nullptr);
+                         const RunOptions& options = {});
 
   bool empty() const { return !impl_; }
 

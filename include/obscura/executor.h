@@ -4,6 +4,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "obscura/export.h"
+
 namespace obscura {
 
 // A borrowed callable: valid only while the call that takes it runs.
@@ -26,7 +28,7 @@ class FunctionRef<R(Args...)> {
 };
 
 // Runs loops on threads. Implement it to lend Obscura the host's own job system.
-class Executor {
+class OBSCURA_API Executor {
  public:
   virtual ~Executor() = default;
 
@@ -40,7 +42,7 @@ class Executor {
 };
 
 // `threads` from 1, at most one per processor that this process may use; 0 takes them all.
-std::unique_ptr<Executor> make_executor(int threads = 0);
+OBSCURA_API std::unique_ptr<Executor> make_executor(int threads = 0);
 
 }  // namespace obscura
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 
 namespace obscura {
@@ -25,22 +26,24 @@ struct EnumNames<FalloffKind> {
 
 struct Falloff {
   FalloffKind kind = FalloffKind::kExponential;
-  float radius = 1;            // world units, (0, inf]; inf: rho = 1 for the four named kinds
-  std::vector<float> table{};  // kTable: 2 or more values in [0, 1]
-  std::function<float(float)> function{};  // kFunction: called at set-up only
+  float radius = 1;
+  std::vector<float> table{};              // kTable, C++ only: 2 or more values in [0, 1]
+  std::function<float(float)> function{};  // kFunction, C++ only: called at set-up only
 };
 template <FieldsOf<Falloff> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.kind, Field{"falloff",
                   "",
                   {},
-                  "How an occluder's weight falls with its distance d: 1 up to "
-                  "the radius R, exp(-d/R), (1-d/R)^2 or 1/(1+(d/R)^2)."});
-  v(s.radius, Field{"radius", "world units", positive_or_infinite(),
-                    "Length R of the falloff; the sphere's radius in volumetric obscurance."});
+                  "Weight of an occluder at distance d with radius R: 1 up to R, exp(-d/R), "
+                  "(1-d/R)^2 or 1/(1+(d/R)^2)."});
+  v(s.radius,
+    Field{
+        "radius", "world units", positive_or_infinite(),
+        "Radius R of the falloff, inf: no falloff; in volumetric obscurance that of the sphere."});
 }
 
-Status validate(const Falloff& falloff);
+OBSCURA_API Status validate(const Falloff& falloff);
 
 }  // namespace obscura
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "obscura/cone.h"
+#include "obscura/export.h"
 #include "obscura/falloff.h"
 #include "obscura/occluder.h"
 #include "obscura/resolution.h"
@@ -31,15 +32,18 @@ struct EnumNames<FarFieldPreset> {
 
 // Distance between the direct samples of the near field.
 struct NearStep {
-  float px = 0;  // (0, 8]; 0: adaptive, a quarter pixel at first and growing outwards
+  static constexpr Range kRange = closed(0.125, 8);
+  float px = 0;  // in kRange, or 0: adaptive, a quarter pixel at first and growing outwards
 
   static NearStep adaptive() { return {}; }
   static NearStep of(float px) { return {px}; }
   bool operator==(const NearStep&) const = default;
 };
 template <>
-struct SettingText<NearStep> {
-  static constexpr const char* form = "adaptive or a number of pixels in [0.125, 8]";
+struct OBSCURA_API SettingText<NearStep> {
+  static std::string form() {
+    return "adaptive or a number of pixels in " + to_string(NearStep::kRange);
+  }
   static bool parse(std::string_view text, NearStep* value);
   static std::string write(const NearStep& value);
 };
@@ -47,51 +51,71 @@ struct SettingText<NearStep> {
 // Far-field ambient obscurance (Timonen 2013): the whole depth image for every pixel at a cost that
 // does not depend on the radius. Lines scanned in K directions leave per interval the highest
 // geometry as seen at two slopes; each receiver reads their averages over its azimuthal sector.
-// Direct samples serve the first one and a half intervals.
+// Direct samples serve the first one and a half intervals. Takes any falloff, and the occluders
+// solid, thickness and back-depth.
 struct FarFieldSettings {
-  Falloff falloff{};                              // any
-  Occluder occluder{};                            // solid, thickness or back-depth
-  FarFieldPreset preset = FarFieldPreset::kNone;  // not none: sets directions, segments, near_step
-  int directions = 16;                            // [4, 64] K
-  int segments = 2;                               // [1, 8] S per direction
-  int interval = 10;                              // [2, 64] B0, pixels
-  SlabProfile profile = SlabProfile::kAdaptiveChord;  // slab is the paper's
-  int receiver_slope = 1;  // -1, the paper's, or 1: slope at which the second height is taken
-  NearStep near_step{};    // px, or adaptive
-  bool near_field = true;  // false: the far field alone
-  int separable = 1;    // 1, or 3: 3x3 pixels share the far field's directions (K a multiple of 9)
-  bool jitter = false;  // turns the segments from pixel to pixel of 3x3 within their width
-  bool blur = true;     // selective, 5x5; with separable 3 or jitter
-  int line_step = 1;    // [1, 4] every n-th line is scanned
+  Falloff falloff{};
+  Occluder occluder{};
+  FarFieldPreset preset = FarFieldPreset::kNone;
+  int directions = 16;
+  int segments = 2;
+  int interval = 10;
+  SlabProfile profile = SlabProfile::kAdaptiveChord;
+  int receiver_slope = 1;
+  NearStep near_step{};
+  bool near_field = true;
+  int separable = 1;
+  bool jitter = false;
+  bool blur = true;
+  int line_step = 1;
   ConeEstimate cone = ConeEstimate::kExact;
   Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<FarFieldSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.preset,
-    Field{"preset", "", {}, "Sets directions, segments and near_step, whatever they are."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.preset, Field{"preset", "", {}, "Overrides directions, segments and near_step."});
   v(s.directions,
     Field{"directions", "", closed(4, 64), "Directions K in which the depth image is scanned."});
-  v(s.segments, Field{"segments", "per direction", closed(1, 8),
-                      "Segments S into which each direction's sector is divided."});
-  v(s.interval,
-    Field{"interval", "pixels", closed(2, 64), "Base interval B0 along the scanned lines."});
-  v(s.profile, Field{"profile", "", {}, "Where matter is between two points of a slice."});
-  v(s.receiver_slope, Field{"receiver_slope", "", closed(-1, 1),
-                            "Slope, -1 or 1, at which the second height is taken."});
-  v(s.near_step, Field{"near_step", "pixels", {}, "Step of the near field's direct samples."});
-  v(s.near_field, Field{"near_field", "", {}, "Sample the near field; off: the far field alone."});
+  v(s.segments, Field{"segments", "per direction", closed(1, 8), "Sectors S per direction."});
+  v(s.interval, Field{"interval", "pixels", closed(2, 64),
+                      "Length B0 of the shortest interval along a scanned line."});
+  v(s.profile,
+    Field{"profile",
+          "",
+          {},
+          "Assumed shape of objects between two visible points of a slice; slab is the paper's."});
+  v(s.receiver_slope,
+    Field{"receiver_slope", "", closed(-1, 1),
+          "Slope of the second line of sight to an interval: 1, or -1 as published."});
+  v(s.near_step, Field{"near_step", "pixels", {}, "Distance between samples near the pixel."});
+  v(s.near_field, Field{"near_field", "", {}, "Sample the pixel's surroundings directly, too."});
   v(s.separable, Field{"separable", "pixels", closed(1, 3),
-                       "3: each pixel of a 3x3 group sees the far field in a ninth of the "
-                       "directions; 1: in all."});
-  v(s.jitter, Field{"jitter", "", {}, "Turns segments from pixel to pixel within their width."});
-  v(s.blur, Field{"blur", "", {}, "Selective 5x5 blur after separable evaluation or jitter."});
-  v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Every n-th line is scanned."});
-  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
+                       "3: each pixel of a 3x3 group evaluates a ninth of the directions, whose "
+                       "number must be a multiple of 9; 1: each pixel evaluates all."});
+  v(s.jitter, Field{"jitter", "", {}, "Rotates sectors per pixel, in groups of 3x3 pixels."});
+  v(s.blur, Field{"blur", "", {}, "5x5 edge-aware blur; used with separable 3 or jitter."});
+  v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Scan every n-th line only."});
+  v(s.cone,
+    Field{
+        "cone",
+        "",
+        {},
+        "How the cone angle follows from the mean direction: exactly for a cap, or as published."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<FarFieldSettings> {
+  static constexpr const char* name = "far-field";
+  static constexpr const char* summary =
+      "Far-field ambient obscurance: every pixel sees the whole depth image (Timonen 2013)";
+  static constexpr const char* page = "docs/methods/far-field.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

@@ -28,16 +28,17 @@ struct EnumNames<HorizonVariant> {
 // Ambient obscurance from horizons (Bavoil, Sainz, Dimitrov, "Image-space horizon-based ambient
 // occlusion", 2008) and its stronger relative: a few samples along each of K directions, which
 // m x m neighbouring pixels turn and shift by different parts of a direction and of a step. Both
-// give bent normals and cones, the slices also the cosine-weighted integral.
+// give bent normals and cones, the slices also the cosine-weighted integral. Slices take any
+// falloff.
 struct HorizonSettings {
-  Falloff falloff{};  // slices: any
+  Falloff falloff{};
   HorizonVariant variant = HorizonVariant::kSlices;
-  SlabProfile profile = SlabProfile::kAdaptiveChord;  // slices, falloffs other than constant
-  int directions = 8;                                 // K
-  int steps = 8;                                      // samples per direction
-  float angle_bias = 0.1f;  // classic: radians above the tangent plane that do not count
-  int interleave = 4;       // m
-  bool blur = true;         // over m x m pixels
+  SlabProfile profile = SlabProfile::kAdaptiveChord;
+  int directions = 8;
+  int steps = 8;
+  float angle_bias = 0.1f;
+  int interleave = 4;
+  bool blur = true;
   ConeEstimate cone = ConeEstimate::kExact;
   std::uint32_t seed = 1;
   Resolution resolution = Resolution::kFull;
@@ -45,19 +46,38 @@ struct HorizonSettings {
 template <FieldsOf<HorizonSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.variant, Field{"variant", "", {}, "Cosine-weighted slices, or the published method."});
-  v(s.profile, Field{"profile", "", {}, "Where matter is between two points of a slice."});
+  v(s.variant,
+    Field{"variant", "", {}, "Cosine-weighted slices, or the method as published (classic)."});
+  v(s.profile, Field{"profile",
+                     "",
+                     {},
+                     "With slices: assumed shape of objects between two visible points, for "
+                     "falloffs other than constant."});
   v(s.directions, Field{"directions", "", closed(2, 64), "Azimuthal directions K."});
   v(s.steps, Field{"steps", "per direction", closed(1, 64), "Samples along each direction."});
-  v(s.angle_bias, Field{"angle_bias", "radians", closed(0, 1.5),
-                        "Classic: how far a sample must rise above the tangent plane to count."});
+  v(s.angle_bias,
+    Field{"angle_bias", "radians", closed(0, 1.5),
+          "With classic: the least angle above the tangent plane at which a sample counts."});
   v(s.interleave, Field{"interleave", "pixels", closed(1, 8),
-                        "Size m of the m x m pixels that share one larger pattern."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.cone, Field{"cone", "", {}, "Cone angle from the mean direction: exact for caps, or paper."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+                        "Groups of m x m pixels share one larger pattern."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.cone,
+    Field{
+        "cone",
+        "",
+        {},
+        "How the cone angle follows from the mean direction: exactly for a cap, or as published."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<HorizonSettings> {
+  static constexpr const char* name = "horizon";
+  static constexpr const char* summary =
+      "Horizon-based ambient occlusion (Bavoil 2008) and cosine-weighted slices";
+  static constexpr const char* page = "docs/methods/far-field.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

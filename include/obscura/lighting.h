@@ -6,7 +6,8 @@
 #include <span>
 
 #include "obscura/environment.h"
-#include "obscura/outputs.h"
+#include "obscura/export.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 
@@ -15,14 +16,14 @@
 namespace obscura {
 
 struct PreconvolutionSettings {
-  int cells = 32;         // of the table, along a cube face's side
-  int source_cells = 64;  // of the light that is summed over
+  int cells = 32;
+  int source_cells = 64;
 };
 template <FieldsOf<PreconvolutionSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.cells, Field{"cells", "cells", closed(4, 128), "Cells of the table along a face's side."});
+  v(s.cells, Field{"cells", "cells", closed(4, 128), "Cells per edge of a cube face."});
   v(s.source_cells, Field{"source_cells", "cells", closed(8, 128),
-                          "Cells of the light that is summed over, along a face's side."});
+                          "Cells of the summed light per edge of a cube face."});
 }
 
 // Radiance of a white diffuse surface by direction w and cone angle a,
@@ -30,7 +31,7 @@ void visit_fields(Self& s, Visitor&& v) {
 // for eight angles from pi/16 to pi/2, linear between them. With this t a constant environment
 // stays constant for every angle; L_c(w, pi/2) is L_p, the cosine-convolved environment. The cones'
 // edges are softened by about one source cell. Immutable; copies share the data.
-class PreconvolvedEnvironment {
+class OBSCURA_API PreconvolvedEnvironment {
  public:
   static constexpr int kLevels = 8;
 
@@ -70,7 +71,8 @@ struct EnumNames<LightingTechnique> {
 
 enum class ConeNormalisation {
   kConstant,  // t = 1/sin^2(a): constant light stays constant
-  kPaper,     // t = 1/(1 - cos a), section 3.3: constant light becomes 1 + cos a
+  kPaper,  // t = 1/(1 - cos a), Klehm et al. 2011, Klehm et al. 2011, section 3.3: constant light
+           // becomes 1 + cos a
 };
 template <>
 struct EnumNames<ConeNormalisation> {
@@ -92,21 +94,35 @@ struct EnumNames<VisibilityWeights> {
 // `geometric_term` with `normalisation = paper` goes with uniform visibility.
 struct LightingSettings {
   LightingTechnique technique = LightingTechnique::kBentCone;
-  bool geometric_term = false;  // multiply by max(0, N.n), section 3.4
+  bool geometric_term = false;
   ConeNormalisation normalisation = ConeNormalisation::kConstant;
-  VisibilityWeights weights = VisibilityWeights::kCosine;  // decides the sun's shadow only
+  VisibilityWeights weights = VisibilityWeights::kCosine;
   // Rotates eye space to world space; row-major, orthonormal.
   std::array<float, 9> world_from_eye{1, 0, 0, 0, 1, 0, 0, 0, 1};
 };
 template <FieldsOf<LightingSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.technique, Field{"technique", "", {}, "What the light is looked up with."});
-  v(s.geometric_term, Field{"geometric_term", "", {}, "Multiply by bent normal times normal."});
-  v(s.normalisation, Field{"normalisation",
-                           "",
-                           {},
-                           "Of the cones' light: constant light stays constant, or as the paper."});
-  v(s.weights, Field{"weights", "", {}, "What the visibility is an integral over."});
+  v(s.technique,
+    Field{"technique",
+          "",
+          {},
+          "What the light is looked up with: the normal, the bent normal or the cone."});
+  v(s.geometric_term,
+    Field{
+        "geometric_term",
+        "",
+        {},
+        "Multiply by the cosine between bent normal and normal (Klehm et al. 2011, section 3.4)."});
+  v(s.normalisation,
+    Field{"normalisation",
+          "",
+          {},
+          "Scale of a cone's light: constant light stays constant, or as published."});
+  v(s.weights,
+    Field{"weights",
+          "",
+          {},
+          "Weighting of the visibility: cosine or uniform; only matters for the sun's shadow."});
 }
 
 // Images of one size, in eye space. An empty view is left out where the technique does not need it.
@@ -123,19 +139,19 @@ struct LightingInputs {
 // E/pi max(0, n.s) times the part of the sun's disc within the cone times the share of the cone
 // that is open. `out` has the inputs' size and may be one of them. The same bits for any number of
 // threads.
-Status light(const LightingInputs& inputs, const PreconvolvedEnvironment& environment,
-             const LightingSettings& settings, const VectorView<float>& out,
-             const RunOptions& options = {});
+OBSCURA_API Status light(const LightingInputs& inputs, const PreconvolvedEnvironment& environment,
+                         const LightingSettings& settings, const VectorView<float>& out,
+                         const RunOptions& options = {});
 
 // Bent normal and cone whose cosine-weighted moments are those given, pixel by pixel: for light
 // that is linear in direction the bent cone is then exact under any visibility. `cosine_integral`
 // is Outputs::cosine_integral and `visibility` its cosine-weighted visibility. Outputs may be
 // inputs.
-Status cones_from_cosine_integral(const ImageView<const float>& visibility,
-                                  const VectorView<const float>& cosine_integral,
-                                  const VectorView<float>& bent_normal,
-                                  const ImageView<float>& cone_angle,
-                                  const RunOptions& options = {});
+OBSCURA_API Status cones_from_cosine_integral(const ImageView<const float>& visibility,
+                                              const VectorView<const float>& cosine_integral,
+                                              const VectorView<float>& bent_normal,
+                                              const ImageView<float>& cone_angle,
+                                              const RunOptions& options = {});
 
 }  // namespace obscura
 

@@ -23,32 +23,45 @@ struct EnumNames<SphereKind> {
 
 // Volumetric obscurance by line samples (Loos and Sloan 2010, section 4.1): the share of a sphere
 // around the receiver that is free of matter, from lines along the view direction. With normals
-// only the half in front of the tangent plane counts, so that a plane of any tilt gives 1.
+// only the half in front of the tangent plane counts, so that a plane of any tilt gives 1. Takes
+// the falloffs constant and quadratic, and the occluders solid and thickness.
 struct LineSettings {
-  Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the sphere's
+  Falloff falloff{.kind = FalloffKind::kConstant};
   DualRadius dual{};
-  Occluder occluder{};                        // solid or thickness
-  SphereKind sphere = SphereKind::kCentered;  //
-  int samples = 9;                            // [1, 32] lines per pixel
-  bool center = false;                        // one of the lines passes through the receiver
-  bool rotate = true;                         // random reflection of the pattern per pixel
-  bool blur = true;                           // edge-aware separable blur of the result
-  std::uint32_t seed = 1;                     // of the random reflections
+  Occluder occluder{};
+  SphereKind sphere = SphereKind::kCentered;
+  int samples = 9;
+  bool center = false;
+  bool rotate = true;
+  bool blur = true;
+  std::uint32_t seed = 1;
   Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<LineSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   visit_fields(s.dual, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.sphere, Field{"sphere", "", {}, "Sphere around the receiver, or in front of its plane."});
-  v(s.samples, Field{"samples", "per pixel", closed(1, 32), "Size of the pattern."});
-  v(s.center, Field{"center", "", {}, "One sample lies at the pattern's centre."});
-  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.sphere,
+    Field{"sphere", "", {}, "Sphere around the point, or in front of its tangent plane."});
+  v(s.samples, Field{"samples", "per pixel", closed(1, 32), "Samples in the pattern."});
+  v(s.center, Field{"center", "", {}, "Put one sample at the centre of the pattern."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random in each pixel."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<LineSettings> {
+  static constexpr const char* name = "line";
+  static constexpr const char* summary =
+      "Volumetric obscurance by line samples (Loos and Sloan 2010)";
+  static constexpr const char* page = "docs/methods/volumetric-obscurance.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

@@ -1,11 +1,12 @@
 #ifndef OBSCURA_OCCLUDER_H_
 #define OBSCURA_OCCLUDER_H_
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 
 namespace obscura {
 
-// What lies behind the first surface of a depth image.
+// How thick matter is assumed to be behind each depth sample.
 enum class OccluderKind {
   kSolid,      // matter without end: the papers' assumption
   kThickness,  // matter of one thickness along each view ray, between front and back only
@@ -19,8 +20,11 @@ struct EnumNames<OccluderKind> {
 
 struct Occluder {
   OccluderKind kind = OccluderKind::kSolid;
-  float thickness = 0;  // kThickness: world units, (0, inf)
-  int layers = 0;       // kLayers: 1..64
+  static constexpr Range kThicknessRange = positive();  // world units
+  static constexpr Range kLayersRange = closed(1, 64);
+
+  float thickness = 0;  // of kThickness
+  int layers = 0;       // of kLayers
 
   static Occluder solid() { return {}; }
   static Occluder of_thickness(float t) { return {OccluderKind::kThickness, t, 0}; }
@@ -28,12 +32,11 @@ struct Occluder {
   static Occluder of_layers(int k) { return {OccluderKind::kLayers, 0, k}; }
 };
 
-Status validate(const Occluder& occluder);
+OBSCURA_API Status validate(const Occluder& occluder);
 
 template <>
-struct SettingText<Occluder> {
-  static constexpr const char* form =
-      "solid, thickness:T with T in (0, inf), back-depth or layers:K with K in [1, 64]";
+struct OBSCURA_API SettingText<Occluder> {
+  static std::string form();
   static bool parse(std::string_view text, Occluder* value);
   static std::string write(const Occluder& value);
 };

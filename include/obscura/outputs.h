@@ -1,10 +1,6 @@
 #ifndef OBSCURA_OUTPUTS_H_
 #define OBSCURA_OUTPUTS_H_
 
-#include <functional>
-#include <vector>
-
-#include "obscura/executor.h"
 #include "obscura/views.h"
 
 namespace obscura {
@@ -15,7 +11,7 @@ namespace obscura {
 struct Outputs {
   // In [0, 1]; 1 is open. Cosine-weighted unless the method's page says otherwise.
   ImageView<float> visibility{};
-  // Mean unoccluded direction over the hemisphere, uniform weights (bent normals and cones,
+  // Mean unoccluded direction over the hemisphere, uniform weights (Klehm et al. 2011,
   // section 3.1), as a unit vector in eye space.
   VectorView<float> bent_normal{};
   // Half-angle in radians, [0, pi/2], of the cone around bent_normal.
@@ -33,22 +29,6 @@ struct Outputs {
   VectorView<float> radiance{};
   // Reference tracers: estimated standard error of visibility.
   ImageView<float> standard_error{};
-};
-
-// Wall time of one pass of a run.
-struct PassTime {
-  const char* name;
-  double milliseconds;
-};
-
-struct RunOptions {
-  // Null: the estimator's own threads (see Estimator::create).
-  Executor* executor = nullptr;
-  // Called now and then, from one thread at a time, with the share done in [0, 1]; returning false
-  // stops the run with StatusCode::kCancelled.
-  std::function<bool(double)> progress{};
-  // When given: replaced by what each pass took, in their order; a method's page names them.
-  std::vector<PassTime>* pass_times = nullptr;
 };
 
 }  // namespace obscura

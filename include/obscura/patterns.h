@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 
 namespace obscura {
@@ -31,35 +32,38 @@ struct BallSample {
 // The patterns that ship with the library, made by the functions below with their default seed.
 inline constexpr int kMaxDiskSamples = 32;
 inline constexpr int kMaxBallSamples = 64;
-std::span<const DiskSample> disk_pattern(int count, bool center);  // count in [1, 32]
-std::span<const BallSample> ball_pattern(int count);               // count in [1, 64]
+OBSCURA_API std::span<const DiskSample> disk_pattern(int count, bool center);  // count in [1, 32]
+OBSCURA_API std::span<const BallSample> ball_pattern(int count);               // count in [1, 64]
 
 // How patterns are made: points repel each other with 1/d^4, and a charge on the boundary, adapted
 // so that points move to the weighted centroids of their Voronoi cells, keeps them inside. A step
 // is kept while the error falls. Of many Poisson starts the one with the least integration error
 // over half-spaces and steps wins.
-struct PatternSettings {
-  int count = 9;           // [1, 256] samples
-  bool center = false;     // disk: one sample stays at the centre
-  int starts = 32;         // [1, 10000] Poisson starts
-  int steps = 200;         // [1, 100000] steps of each
-  std::uint32_t seed = 1;  // of the starts
+struct OBSCURA_EXPERIMENTAL PatternSettings {
+  int count = 9;
+  bool center = false;
+  int starts = 32;
+  int steps = 200;
+  std::uint32_t seed = 1;
 };
 template <FieldsOf<PatternSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.count, Field{"count", "samples", closed(1, 256), "Size of the pattern."});
-  v(s.center, Field{"center", "", {}, "One sample of a disk stays at the centre."});
-  v(s.starts, Field{"starts", "", closed(1, 10000), "Random starting sets; the best result wins."});
+  v(s.count, Field{"count", "samples", closed(1, 256), "Samples in the pattern."});
+  v(s.center, Field{"center", "", {}, "Keep one sample of a disk at the centre."});
+  v(s.starts,
+    Field{"starts", "", closed(1, 10000), "Random starting sets; the best result is taken."});
   v(s.steps, Field{"steps", "", closed(1, 100000), "Steps taken from each start."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
-Status make_disk_pattern(const PatternSettings& settings, std::vector<DiskSample>* pattern);
-Status make_ball_pattern(const PatternSettings& settings, std::vector<BallSample>* pattern);
+OBSCURA_API OBSCURA_EXPERIMENTAL Status make_disk_pattern(const PatternSettings& settings,
+                                                          std::vector<DiskSample>* pattern);
+OBSCURA_API OBSCURA_EXPERIMENTAL Status make_ball_pattern(const PatternSettings& settings,
+                                                          std::vector<BallSample>* pattern);
 
 // Sets the weights of any set of samples from its Voronoi cells, on a grid of 512^2 or 128^3.
-void weigh(std::span<DiskSample> samples);
-void weigh(std::span<BallSample> samples);
+OBSCURA_API OBSCURA_EXPERIMENTAL void weigh(std::span<DiskSample> samples);
+OBSCURA_API OBSCURA_EXPERIMENTAL void weigh(std::span<BallSample> samples);
 
 }  // namespace obscura
 

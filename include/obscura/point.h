@@ -23,29 +23,43 @@ struct EnumNames<PointPattern> {
 
 // Volumetric obscurance by point samples (Mittring 2007; Filion and McNaughton 2008; Loos and Sloan
 // 2010, section 4). With normals, samples behind the tangent plane are reflected to its front.
+// Takes the falloffs constant and quadratic, and the occluders solid and thickness; the screen
+// pattern takes solid alone.
 struct PointSettings {
-  Falloff falloff{.kind = FalloffKind::kConstant};  // constant or quadratic; radius: the ball's
+  Falloff falloff{.kind = FalloffKind::kConstant};
   DualRadius dual{};
-  Occluder occluder{};                         // solid or thickness; screen: solid
-  PointPattern pattern = PointPattern::kBall;  //
-  int samples = 12;                            // [1, 64] points per pixel; screen: [1, 32]
-  bool rotate = true;                          // random reflection of the pattern per pixel
-  bool blur = true;                            // edge-aware separable blur of the result
-  std::uint32_t seed = 1;                      // of the random reflections
+  Occluder occluder{};
+  PointPattern pattern = PointPattern::kBall;
+  int samples = 12;
+  bool rotate = true;
+  bool blur = true;
+  std::uint32_t seed = 1;
   Resolution resolution = Resolution::kFull;
 };
 template <FieldsOf<PointSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
   visit_fields(s.dual, v);
-  v(s.occluder, Field{"occluder", "world units", {}, "What lies behind the first surface."});
-  v(s.pattern, Field{"pattern", "", {}, "Samples in the ball or on the screen."});
-  v(s.samples, Field{"samples", "per pixel", closed(1, 64), "Size of the pattern."});
-  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random per pixel."});
-  v(s.blur, Field{"blur", "", {}, "Edge-aware blur of the result."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "How thick matter is assumed to be behind each depth sample."});
+  v(s.pattern,
+    Field{"pattern", "", {}, "Test points in the ball, or surface points found on the screen."});
+  v(s.samples,
+    Field{"samples", "per pixel", closed(1, 64), "Samples in the pattern; up to 32 with screen."});
+  v(s.rotate, Field{"rotate", "", {}, "Reflect the pattern at random in each pixel."});
+  v(s.blur, Field{"blur", "", {}, "Blur the result, keeping edges."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
   v(s.resolution, resolution_field());
 }
+template <>
+struct MethodInfo<PointSettings> {
+  static constexpr const char* name = "point";
+  static constexpr const char* summary = "Volumetric obscurance by point samples (Mittring 2007)";
+  static constexpr const char* page = "docs/methods/volumetric-obscurance.md";
+  static constexpr bool on_vulkan = true;
+};
 
 }  // namespace obscura
 

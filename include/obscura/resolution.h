@@ -1,6 +1,7 @@
 #ifndef OBSCURA_RESOLUTION_H_
 #define OBSCURA_RESOLUTION_H_
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 
 namespace obscura {
@@ -9,15 +10,14 @@ namespace obscura {
 // in pixels twice as long; the others are filled in between them, along surfaces and not across
 // their edges. A quarter of the work. What is one pixel wide, and lies between the pixels that were
 // worked at, takes what the surface nearest in depth has.
-enum class Resolution { kFull, kHalf };
+enum class OBSCURA_EXPERIMENTAL Resolution { kFull, kHalf };
 template <>
 struct EnumNames<Resolution> {
   static constexpr const char* names[] = {"full", "half"};
 };
 
 inline Field resolution_field() {
-  return {
-      "resolution", "", {}, "Work at every pixel, or at a quarter of them and fill in the rest."};
+  return {"resolution", "", {}, "Compute every pixel, or a quarter of them and fill in the rest."};
 }
 
 }  // namespace obscura

@@ -9,12 +9,14 @@
 #include <string_view>
 #include <type_traits>
 
+#include "obscura/export.h"
 #include "obscura/status.h"
 
 // One table of settings. Each settings struct has, right below it, a function
-// `visit_fields(settings, visitor)` that names every field with its unit, range and meaning. The
-// defaults are the struct's own initialisers. Validation, the command line's options and help, and
-// docs/settings.md are all made from these functions.
+// `visit_fields(settings, visitor)` that names every field with its unit, range and meaning: they
+// stand there and nowhere else. The defaults are the struct's own initialisers. Validation, the
+// command line's options and help, and docs/settings.md are all made from these functions. The
+// struct itself has comments on fields that no table can list only, such as callables.
 
 namespace obscura {
 
@@ -70,8 +72,17 @@ const char* enum_name(E value) {
   return EnumNames<E>::names[static_cast<int>(value)];
 }
 
+// What is said of a method. Specialised beside each method's settings, with
+//   static constexpr const char* name;     as the command line knows it: "far-field"
+//   static constexpr const char* summary;  one line, without a full stop
+//   static constexpr const char* page;     of the documentation: "docs/methods/far-field.md"
+//   static constexpr bool on_vulkan;       whether vulkan::Recorder takes it
+template <class Settings>
+struct MethodInfo;
+
 // How a field's type that is neither number, flag nor enumeration is written as text. Specialised
-// beside each such type with `form` (its grammar, for help), `parse` (true on success) and `write`.
+// beside each such type with `form` (its grammar, for help: text or a function that gives it),
+// `parse` (true on success) and `write`.
 template <class T>
 struct SettingText;
 
@@ -80,16 +91,17 @@ template <class Self, class Struct>
 concept FieldsOf = std::is_same_v<std::remove_const_t<Self>, Struct>;
 
 // "(0, inf)", "[1, 32]": the form in which ranges stand in messages, help and docs.
-std::string to_string(const Range& range);
+OBSCURA_API std::string to_string(const Range& range);
 
 // The sentence for a value out of range: "samples is 0; it must be in [1, 32]".
-Status out_of_range(const Field& field, double value);
+OBSCURA_API Status out_of_range(const Field& field, double value);
 
 // Parts of parse_setting.
-bool parse_number(std::string_view text, double* value);
-std::string write_number(double value, bool single_precision);
-Status bad_setting(std::string_view name, std::string_view text, std::string_view expected);
-std::string one_of(std::span<const char* const> names);
+OBSCURA_API bool parse_number(std::string_view text, double* value);
+OBSCURA_API std::string write_number(double value, bool single_precision);
+OBSCURA_API Status bad_setting(std::string_view name, std::string_view text,
+                               std::string_view expected);
+OBSCURA_API std::string one_of(std::span<const char* const> names);
 
 // What a value of type T may be, for help and messages: "a number in (0, inf)", "one of a, b".
 template <class T>
@@ -102,6 +114,8 @@ std::string expected_text(const Field& field) {
     return "a whole number in " + to_string(integer_range<T>(field.range));
   } else if constexpr (std::is_floating_point_v<T>) {
     return "a number in " + to_string(field.range);
+  } else if constexpr (requires { SettingText<T>::form(); }) {
+    return SettingText<T>::form();
   } else {
     return SettingText<T>::form;
   }

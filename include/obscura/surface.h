@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "obscura/export.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 #include "obscura/views.h"
@@ -26,7 +27,7 @@ struct SurfaceCamera {
 };
 
 struct SurfaceSettings {
-  int samples_per_pixel = 4;  // [1, 256]
+  int samples_per_pixel = 4;
 };
 template <FieldsOf<SurfaceSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -60,9 +61,9 @@ using SurfaceShader = std::function<Status(int first_row, std::span<const Surfac
 // Guarantees: the same bits for any number of threads, if the shader's are.
 // Requires: volume and distance of one size. Where the shader fails its status is returned and the
 // outputs are unspecified.
-Status render_surface(const SurfaceScene& scene, const SurfaceCamera& camera,
-                      const SurfaceSettings& settings, const SurfaceShader& shader,
-                      const SurfaceOutputs& outputs, const VolumeRun& run = {});
+OBSCURA_API Status render_surface(const SurfaceScene& scene, const SurfaceCamera& camera,
+                                  const SurfaceSettings& settings, const SurfaceShader& shader,
+                                  const SurfaceOutputs& outputs, const RunOptions& run = {});
 
 }  // namespace obscura
 

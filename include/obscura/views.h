@@ -5,6 +5,16 @@
 
 namespace obscura {
 
+// Pixels of an image along its sides.
+struct Extent {
+  int width = 0, height = 0;
+
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  bool operator==(const Extent&) const = default;
+};
+
 // A caller-owned image: row 0 is the top row. Strides count elements of T, so that one view serves
 // planar images (pixel_stride 1), a channel of an interleaved one (pixel_stride 3 or 4) and
 // sub-rectangles. Negative strides are allowed.

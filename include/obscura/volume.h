@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 
-#include "obscura/executor.h"
+#include "obscura/export.h"
+#include "obscura/run_options.h"
 #include "obscura/settings.h"
 #include "obscura/status.h"
 
@@ -69,7 +69,7 @@ struct EnumNames<SolidSide> {
   static constexpr const char* names[] = {"above", "below"};
 };
 
-// How distances beside the surface begin.
+// How distances next to the surface are found.
 enum class DistanceStart {
   kGradient,  // |f| / |grad f|, capped by the distance along the crossing edges: most accurate
   kEdges,     // the paper's: interpolation along the crossing edges
@@ -79,28 +79,25 @@ struct EnumNames<DistanceStart> {
   static constexpr const char* names[] = {"gradient", "edges"};
 };
 
-// What a run reports to and may be stopped by; null or empty members are not used.
-struct VolumeRun {
-  Executor* executor = nullptr;  // null: every processor
-  // Called now and then, from one thread at a time, with the share done in [0, 1]; returning false
-  // stops the run with StatusCode::kCancelled.
-  std::function<bool(double)> progress{};
-};
-
 struct DistanceSettings {
-  float isovalue = 0;                   // of the volume's values; a value equal to it is solid
-  SolidSide solid = SolidSide::kAbove;  // side of the isovalue that is matter
+  float isovalue = 0;
+  SolidSide solid = SolidSide::kAbove;
   DistanceStart start = DistanceStart::kGradient;
-  int sweeps = 8;         // [8, 800] Gauss-Seidel sweeps at most, rounded up to whole rounds of 8
-  bool converge = false;  // after `sweeps`, go on (to 800 at most) until nothing changes
+  int sweeps = 8;
+  bool converge = false;
 };
 template <FieldsOf<DistanceSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.isovalue, Field{"isovalue", "value", {-3.4e38, 3.4e38}, "Value on the surface."});
+  v(s.isovalue, Field{"isovalue",
+                      "value",
+                      {-3.4e38, 3.4e38},
+                      "Isovalue: the value on the surface; a voxel of this value is matter."});
   v(s.solid, Field{"solid", "", {}, "Which side of the isovalue is matter."});
-  v(s.start, Field{"start", "", {}, "How distances beside the surface begin."});
-  v(s.sweeps, Field{"sweeps", "", closed(8, 800), "Sweeps, in rounds of eight."});
-  v(s.converge, Field{"converge", "", {}, "Sweep on until nothing changes."});
+  v(s.start, Field{"start", "", {}, "How distances next to the surface are found."});
+  v(s.sweeps,
+    Field{"sweeps", "", closed(8, 800), "Sweeps at most, rounded up to a multiple of eight."});
+  v(s.converge,
+    Field{"converge", "", {}, "Continue after these sweeps until nothing changes, up to 800."});
 }
 
 struct DistanceReport {
@@ -115,9 +112,9 @@ struct DistanceReport {
 // Guarantees: the same bits for any number of threads. An axis may be one voxel long. Refuses, with
 // the range of values in the message, a volume that the isovalue does not cut.
 // Requires: `distance` as large as the volume and not overlapping it; its spacing is not read.
-Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
-                      GridView<float> distance, const VolumeRun& run = {},
-                      DistanceReport* report = nullptr);
+OBSCURA_API Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
+                                  GridView<float> distance, const RunOptions& run = {},
+                                  DistanceReport* report = nullptr);
 
 // Range and mean of a volume's values; NaN left out.
 struct VolumeRange {
@@ -126,10 +123,11 @@ struct VolumeRange {
   std::int64_t finite = 0, not_finite = 0;
 };
 // Guarantees: the same bits for any number of threads.
-Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run = {});
+OBSCURA_API Status volume_range(const VolumeView& volume, VolumeRange* range,
+                                const RunOptions& run = {});
 
 // Converts one row of values, x = 0 ... size[0] - 1, to floats.
-void volume_row(const VolumeView& volume, int y, int z, float* values);
+OBSCURA_API void volume_row(const VolumeView& volume, int y, int z, float* values);
 
 enum class Transport {
   kPaper,     // equation 6 on the full grid
@@ -151,13 +149,14 @@ struct EnumNames<VisibilityPrecision> {
 struct OcclusionSettings {
   Transport transport = Transport::kBalanced;
   VisibilityPrecision precision = VisibilityPrecision::kU8;
-  float alpha = 1;  // [0, 1] opacity of matter (equation 8)
+  float alpha = 1;  // equation 8
 };
 template <FieldsOf<OcclusionSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.transport, Field{"transport", "", {}, "How visibility is carried through the grid."});
+  v(s.transport,
+    Field{"transport", "", {}, "Scheme by which visibility is carried through the grid."});
   v(s.precision, Field{"precision", "", {}, "How visibilities are stored."});
-  v(s.alpha, Field{"alpha", "", closed(0, 1), "Opacity of matter; under 1 light passes through."});
+  v(s.alpha, Field{"alpha", "", closed(0, 1), "Opacity of matter; below 1 light passes through."});
 }
 
 // A point of the surface: its position in grid space and the unit normal towards the open side.
@@ -178,7 +177,7 @@ struct LightSettings {
 class VisibilityFieldImpl;
 
 // Visibilities of the octants in a grid.
-class VisibilityField {
+class OBSCURA_API VisibilityField {
  public:
   VisibilityField();
   ~VisibilityField();
@@ -194,14 +193,14 @@ class VisibilityField {
   // Writes the mean visibility of an octant, in [0, 1], at each sample of the field's own grid.
   Status octant(int octant, GridView<float> visibility) const;
   // The same averaged over all octants: one scalar field without the geometry term.
-  Status scalar(GridView<float> visibility, const VolumeRun& run = {}) const;
+  Status scalar(GridView<float> visibility, const RunOptions& run = {}) const;
 
   // Ambient visibility in [0, 1] at points of the surface: the sum of V_s G_s over the chosen
   // octants (equation 4), divided by that of all eight with V = 1, so that an open point is 1 with
   // all. For a field swept with alpha < 1 light comes through the surface too: |N.w| takes the
   // place of max(N.w, 0), and the whole sphere's 2 pi that of pi.
   Status light(std::span<const SurfacePoint> points, const LightSettings& settings,
-               std::span<float> visibility, const VolumeRun& run = {}) const;
+               std::span<float> visibility, const RunOptions& run = {}) const;
 
   VisibilityFieldImpl& impl() { return *impl_; }
   const VisibilityFieldImpl& impl() const { return *impl_; }
@@ -214,38 +213,41 @@ class VisibilityField {
 // distances only within two voxels of the surface; positive is open. Sweeping into a field of the
 // same size again reuses its memory (the field is then empty if memory runs out or the run is
 // cancelled).
-Status sweep_occlusion(GridView<const float> distance, const OcclusionSettings& settings,
-                       VisibilityField* field, const VolumeRun& run = {});
+OBSCURA_API Status sweep_occlusion(GridView<const float> distance,
+                                   const OcclusionSettings& settings, VisibilityField* field,
+                                   const RunOptions& run = {});
 
 // Soft shadow of one light from any direction: a single octant swept on a grid turned so that its
-// axis points to the light (section 4.1). light() of the result gives V alone, without geometry
-// term. `to_light` need not be of unit length.
-Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
-                    const OcclusionSettings& settings, VisibilityField* field,
-                    const VolumeRun& run = {});
+// axis points to the light (Singh et al. 2011, section 4.1). light() of the result gives V alone,
+// without geometry term. `to_light` need not be of unit length.
+OBSCURA_API Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
+                                const OcclusionSettings& settings, VisibilityField* field,
+                                const RunOptions& run = {});
 
 struct MonteCarloSettings {
-  int rays = 1024;         // [1, 2^24] per point
-  float start = 0.5f;      // [0, 100] voxels along the normal from the point to a ray's start
-  std::uint32_t seed = 1;  // of the directions
+  int rays = 1024;
+  float start = 0.5f;
+  std::uint32_t seed = 1;
 };
 template <FieldsOf<MonteCarloSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.rays, Field{"rays", "rays per point", closed(1, 1 << 24), "Rays of the reference."});
-  v(s.start, Field{"start", "voxels", closed(0, 100), "Start of rays along the normal."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.rays, Field{"rays", "rays per point", closed(1, 1 << 24), "Rays per point."});
+  v(s.start,
+    Field{"start", "voxels", closed(0, 100), "Distance along the normal at which rays start."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 // Reference: cosine-weighted visibility of surface points by rays traced through the trilinear
 // distance field. Rays that leave the volume are open.
-Status monte_carlo_visibility(GridView<const float> distance, std::span<const SurfacePoint> points,
-                              const MonteCarloSettings& settings, std::span<float> visibility,
-                              const VolumeRun& run = {});
+OBSCURA_API Status monte_carlo_visibility(GridView<const float> distance,
+                                          std::span<const SurfacePoint> points,
+                                          const MonteCarloSettings& settings,
+                                          std::span<float> visibility, const RunOptions& run = {});
 
 // Reference: 1 where a ray from the point towards `to_light` leaves the volume, else 0.
-Status hard_shadow(GridView<const float> distance, std::span<const SurfacePoint> points,
-                   std::array<float, 3> to_light, const MonteCarloSettings& settings,
-                   std::span<float> visibility, const VolumeRun& run = {});
+OBSCURA_API Status hard_shadow(GridView<const float> distance, std::span<const SurfacePoint> points,
+                               std::array<float, 3> to_light, const MonteCarloSettings& settings,
+                               std::span<float> visibility, const RunOptions& run = {});
 
 }  // namespace obscura
 

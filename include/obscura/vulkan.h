@@ -6,12 +6,13 @@
 #include <memory>
 #include <span>
 
-#include "obscura/depth_field.h"
 #include "obscura/estimator.h"
+#include "obscura/export.h"
+#include "obscura/frame_shape.h"
 
 // Estimators on the caller's Vulkan device, recorded into the caller's command buffer. Vulkan 1.1
 // and the feature shaderStorageImageWriteWithoutFormat; nothing is linked against the loader.
-// docs/vulkan.md lists the methods.
+// docs/vulkan.md lists the methods. The whole header is experimental (docs/compatibility.md).
 namespace obscura::vulkan {
 
 // The caller's; must outlive every Recorder made from it.
@@ -23,25 +24,9 @@ struct Device {
   std::uint32_t max_storage_buffer_range = 1u << 27;
 };
 
-// How a bent normal and its cone are stored in FrameImages::bent_normal. Alpha is the cone's half
-// angle divided by pi/2.
-enum class Directions {
-  kNone,
-  kSigned,    // rgb is the bent normal: RGBA16_SFLOAT, RGBA32_SFLOAT, RGBA8_SNORM
-  kUnsigned,  // rgb is half the bent normal plus one half: RGBA8_UNORM
-};
-
-// What stays the same from frame to frame.
-struct FrameShape {
-  int width = 0, height = 0;  // whole depth image, guard band included; 1 to 16384 a side
-  GuardBand guard_band{};
-  DepthKind depth_kind = DepthKind::kLinear;
-  bool normals = false;  // an image of normals is given; else they come from depth
-  NormalUse normal_use = NormalUse::kAuto;
-  bool back_depth = false;  // an image of where the first layer's matter ends is given
-  Directions directions = Directions::kNone;
-  int frames = 2;  // sets of images that may be in flight, 1 to 8
-};
+using gpu::Directions;
+using gpu::FrameShape;
+using gpu::FrameView;
 
 // Images of one frame; views of the whole image, colour aspect or depth aspect.
 struct FrameImages {
@@ -54,16 +39,6 @@ struct FrameImages {
   VkImageView bent_normal = VK_NULL_HANDLE;
   // As depth and of its kind; where FrameShape::back_depth says so.
   VkImageView back_depth = VK_NULL_HANDLE;
-};
-
-// What may change with each frame.
-struct FrameView {
-  Camera camera{};
-  float near_plane = 0;  // NDC kinds
-  float far_plane = std::numeric_limits<float>::infinity();
-  // For a temporal filter: random and interleaved patterns move from pixel to pixel with it, so
-  // that the mean over 16 frames is that of 16 patterns. 0 gives what the processor gives.
-  std::uint32_t frame_index = 0;
 };
 
 // Memory that the caller provides for what passes hand on: STORAGE_BUFFER and TRANSFER_DST usage,
@@ -82,9 +57,9 @@ struct RecordOptions {
 
 // One estimator's pipelines. record() neither allocates nor submits, waits or maps.
 //
-// Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the processor's
+// Invalid depth (zero, negative, NDC outside [0, 1]) counts as background here; the CPU's
 // Estimator refuses it.
-class Recorder {
+class OBSCURA_API OBSCURA_EXPERIMENTAL Recorder {
  public:
   Recorder();
   ~Recorder();
@@ -106,8 +81,11 @@ class Recorder {
   // Waits, on the device, for earlier compute and transfer work on the scratch memory; the caller's
   // barriers make depth and normals visible to COMPUTE_SHADER reads, and make the visibility that
   // it writes there visible to what follows.
-  void record(VkCommandBuffer commands, int frame, const FrameView& view,
-              const RecordOptions& options = {}) const;
+  //
+  // Records nothing and says why where a frame has no images or a view cannot be (a camera without
+  // scale; for NDC depth a near plane of 0 or a far plane before it).
+  Status record(VkCommandBuffer commands, int frame, const FrameView& view,
+                const RecordOptions& options = {}) const;
 
   std::span<const char* const> pass_names() const;
   // Memory that each pass reads or writes, every byte counted once; images as 4 bytes per texel.

@@ -103,7 +103,7 @@ Status preconvolve(const EnvironmentSource& source, const PreconvolutionSettings
     }
   }
   Environment environment;
-  if (Status s = load_environment(source, &environment, repairs, options.executor); !s.ok()) {
+  if (Status s = load_environment(source, &environment, repairs, options); !s.ok()) {
     return s;
   }
   if (Status s = PreconvolvedEnvironment::make(environment, settings, result, options); !s.ok()) {

@@ -68,10 +68,10 @@ Status open_environment(const std::string& name, EnvironmentSource* source) {
 }
 
 Status load_environment(const EnvironmentSource& source, Environment* environment,
-                        EnvironmentRepairs* repairs, Executor* executor) {
+                        EnvironmentRepairs* repairs, const RunOptions& options) {
   if (source.is_sky) {
     *repairs = {};
-    return Environment::from_sky(source.sky, environment, executor);
+    return Environment::from_sky(source.sky, environment, options);
   }
   Image image;
   if (Status s = read_image(source.name, &image); !s.ok()) return s;
@@ -85,7 +85,7 @@ Status load_environment(const EnvironmentSource& source, Environment* environmen
     if (channel == "Y" && image.channels.size() == 1) rgb[0] = rgb[1] = rgb[2] = view;
   }
   const Status s =
-      Environment::from_lat_long({rgb[0], rgb[1], rgb[2]}, environment, repairs, executor);
+      Environment::from_lat_long({rgb[0], rgb[1], rgb[2]}, environment, repairs, options);
   return s.ok() ? s : Status(s.code(), fmt::format("{}: {}", source.name, s.message()));
 }
 

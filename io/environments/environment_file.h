@@ -22,7 +22,7 @@ Status open_environment(const std::string& name, EnvironmentSource* source);
 
 // Decodes a file's map or makes the sky. `repairs` says what of a map was mended.
 Status load_environment(const EnvironmentSource& source, Environment* environment,
-                        EnvironmentRepairs* repairs, Executor* executor = nullptr);
+                        EnvironmentRepairs* repairs, const RunOptions& options = {});
 
 // The sentence for people, "" where nothing was mended.
 std::string describe(const EnvironmentRepairs& repairs);

@@ -58,13 +58,13 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.depth_channel, Field{"depth_channel",
                            "",
                            {},
-                           "EXR channel that holds depth; without it Z, "
-                           "depth.Z, Depth.V, ViewLayer.Depth.Z and the like are looked for."});
+                           "EXR channel that holds depth; by default Z, depth.Z, Depth.V, "
+                           "ViewLayer.Depth.Z or a similar name."});
   v(s.back_depth_channel, Field{"back_depth_channel",
                                 "",
                                 {},
-                                "EXR channel of the depth where the "
-                                "first surface's matter ends; without it ZBack, if there is one."});
+                                "EXR channel of the back depth, where the first object ends; by "
+                                "default ZBack, if there is one."});
   v(s.normals, Field{"normals",
                      "",
                      {},
@@ -102,8 +102,8 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.guard_band, Field{"guard_band",
                         "",
                         {},
-                        "Pixels around the visible part; an EXR data window "
-                        "larger than the display window says so by itself."});
+                        "Pixels around the visible part; by default an EXR file's data window "
+                        "outside its display window."});
 }
 
 // Reads depth, back depth, normals and camera from an EXR, PFM or 16-bit PNG file. The camera comes

@@ -44,6 +44,10 @@ struct ExrHeader {
   PixelWindow whole_window() const;
 };
 
+// Threads that compress and decompress files, 0 for every processor. Counts before the first file
+// is opened; else every processor does.
+void set_exr_threads(int threads);
+
 Status read_exr_header(const std::string& path, ExrHeader* header);
 
 // The channels that `wanted` names (all for an empty list) over the data window, as floats.

@@ -5,6 +5,7 @@
 #include <ImfPartType.h>
 #include <ImfThreading.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -26,10 +27,13 @@ const char* type_name(Imf::PixelType type) {
 }
 
 // Limits and threads of OpenEXR, which serve all files.
-void set_up_once() {
+void set_up_once(int threads = 0) {
   static std::once_flag once;
-  std::call_once(once, [] {
-    Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+  std::call_once(once, [threads] {
+    const int all = static_cast<int>(std::thread::hardware_concurrency());
+    const int wanted = threads > 0 ? std::min(threads, all) : all;
+    // OpenEXR's workers come beside the calling thread, which is enough for one.
+    Imf::setGlobalThreadCount(wanted == 1 ? 0 : wanted);
     Imf::Header::setMaxImageSize(kMostPixels, kMostPixels);
     Imf::Header::setMaxTileSize(kMostPixels, kMostPixels);
   });
@@ -112,6 +116,8 @@ PixelWindow ExrHeader::whole_window() const {
   return {std::min(a.min_x, b.min_x), std::min(a.min_y, b.min_y), std::max(a.max_x, b.max_x),
           std::max(a.max_y, b.max_y)};
 }
+
+void set_exr_threads(int threads) { set_up_once(threads); }
 
 Status open_exr(const std::string& path, ExrHeader* header,
                 std::unique_ptr<Imf::MultiPartInputFile>* file) {

@@ -38,7 +38,7 @@ Status place(const openvdb::GridBase& grid, const openvdb::Coord& first, VolumeI
 }
 
 template <class Grid>
-Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
+Status densify(const Grid& grid, const char* stored, bool serial, VolumeImage* image) {
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   if (box.empty()) {
     return invalid_input(
@@ -61,7 +61,7 @@ Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
   image->samples.resize(std::size_t(image->voxels()) * sizeof(float));
   openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
       box, reinterpret_cast<float*>(image->samples.data()));
-  openvdb::tools::copyToDense(grid, dense);
+  openvdb::tools::copyToDense(grid, dense, serial);
   if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
     image->isovalue = 0.0f;
     image->solid = SolidSide::kBelow;
@@ -69,12 +69,17 @@ Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
   return {};
 }
 
-Status densify_any(const openvdb::GridBase::Ptr& grid, VolumeImage* image) {
-  if (auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid)) return densify(*g, "f32", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid)) return densify(*g, "f64", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid)) return densify(*g, "i32", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int64Grid>(grid)) return densify(*g, "i64", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::BoolGrid>(grid)) return densify(*g, "bool", image);
+Status densify_any(const openvdb::GridBase::Ptr& grid, bool serial, VolumeImage* image) {
+  if (auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
+    return densify(*g, "f32", serial, image);
+  if (auto g = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))
+    return densify(*g, "f64", serial, image);
+  if (auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid))
+    return densify(*g, "i32", serial, image);
+  if (auto g = openvdb::gridPtrCast<openvdb::Int64Grid>(grid))
+    return densify(*g, "i64", serial, image);
+  if (auto g = openvdb::gridPtrCast<openvdb::BoolGrid>(grid))
+    return densify(*g, "bool", serial, image);
   return unsupported("");
 }
 
@@ -82,7 +87,7 @@ Status densify_any(const openvdb::GridBase::Ptr& grid, VolumeImage* image) {
 
 bool has_openvdb() { return true; }
 
-Status read_vdb(const std::string& path, VolumeImage* image) {
+Status read_vdb(const std::string& path, VolumeImage* image, bool serial) {
   if (Status s = check_readable(path); !s.ok()) return s;
   VolumeImage result;
   result.name = path;
@@ -100,7 +105,7 @@ Status read_vdb(const std::string& path, VolumeImage* image) {
           meta->valueType() != "bool") {
         continue;
       }
-      const Status s = densify_any(file.readGrid(name.gridName()), &result);
+      const Status s = densify_any(file.readGrid(name.gridName()), serial, &result);
       if (s.code() == StatusCode::kUnsupported) continue;
       if (s.ok()) *image = std::move(result);
       return s;
@@ -153,7 +158,7 @@ Status write_vdb(const std::string& path, const FieldGrid& grid,
 
 bool has_openvdb() { return false; }
 
-Status read_vdb(const std::string& path, VolumeImage*) {
+Status read_vdb(const std::string& path, VolumeImage*, bool) {
   return unsupported(
       fmt::format("{}: this build has no OpenVDB; build with OBSCURA_WITH_OPENVDB=ON", path));
 }

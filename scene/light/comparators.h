@@ -13,14 +13,14 @@ namespace obscura::tools {
 
 using RadianceByDirection = std::function<std::array<float, 3>(const std::array<float, 3>&)>;
 
-// Of a ray: the environment, and the sun where the ray meets its disc. With the reference tracer
-// this is the truth.
+// Light along a ray: the environment, and the sun if the ray meets its disc. With the reference
+// tracer this is the ground truth.
 RadianceByDirection light_of_rays(const Environment& environment,
                                   const std::array<float, 9>& world_from_eye);
 
-// Of one of `samples` directions over the hemisphere: what a cone of as much of it shows, the sun
-// spread over the cone. With `hemisphere` this is directional occlusion (SSDO; Ritschel, Grosch,
-// Seidel 2009).
+// Light of one of `samples` directions over the hemisphere: the mean over a cone of that share of
+// the hemisphere, with the sun spread over it. With `hemisphere` this is directional occlusion
+// (SSDO; Ritschel, Grosch, Seidel 2009).
 RadianceByDirection light_of_samples(const PreconvolvedEnvironment& convolved, int samples,
                                      const std::array<float, 9>& world_from_eye);
 

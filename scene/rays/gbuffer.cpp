@@ -102,7 +102,7 @@ Status render_gbuffer(const RayScene& scene, const ViewSpec& view, const LayerSp
       scene.intersect_all(origin, direction, &hits);
       const double sheet = sheet_length / length(eye_direction);
       find_matter(scene, direction, sheet, &hits, &matter);
-      // The first surface is matter, also where its triangle was too thin to be crossed twice.
+      // The first surface counts as matter, even if its triangle was too thin to be crossed twice.
       if (matter.empty()) matter.push_back({hit.t, hit.t + sheet});
       matter[0].front = hit.t;
       for (int k = 0; k < std::min<int>(spec.layers, int(matter.size())); ++k) {

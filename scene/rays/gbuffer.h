@@ -8,7 +8,7 @@
 
 namespace obscura::tools {
 
-// What lies behind the first surface.
+// What to render beside depth and normals.
 struct LayerSpec {
   int layers = 0;           // [0, 64] nearest intervals of matter along each pixel's ray
   bool back_depth = false;  // where the first of them ends

@@ -16,9 +16,9 @@ struct Interval {
 // RayScene::intersect_all, in any order; they come back grouped by part. `sheet` is the extent of
 // an open sheet.
 //
-// In a closed part matter is where entries outnumber exits. A ray through an edge may count twice
-// or not at all; then entries and exits do not balance, and the first exit after an entry ends the
-// matter instead. A crossing without its partner is a sheet.
+// The ray is inside a closed part while entries outnumber exits. A ray through an edge may count
+// twice or not at all; if entries and exits do not balance, the part ends at the first exit after
+// an entry. A crossing without a partner counts as a sheet.
 void find_matter(const RayScene& scene, Vec3 direction, double sheet,
                  std::vector<RayScene::Hit>* hits, std::vector<Interval>* matter);
 

@@ -6,13 +6,15 @@
 #include <array>
 #include <limits>
 
+#include "fmt/format.h"
+
 namespace obscura::tools {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr unsigned kTriangles = 0, kSpheres = 1;  // Embree's geometry numbers
 
-// Embree does not know which context a filter was called for: it gets one with room behind it.
+// Embree passes its own context to filters. This one has room for our data behind it.
 struct GatherContext {
   RTCIntersectContext embree;
   std::vector<std::array<unsigned, 2>>* found;
@@ -85,11 +87,11 @@ RayScene::RayScene(Mesh mesh)
     : mesh_(std::move(mesh)), bounds_(bounds_of(mesh_)), embree_(new Embree) {}
 RayScene::~RayScene() = default;
 
-Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene) {
+Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene, int threads) {
   std::unique_ptr<RayScene> made(new RayScene(std::move(input)));
   const Mesh& mesh = made->mesh_;
   Embree& e = *made->embree_;
-  e.device = rtcNewDevice(nullptr);
+  e.device = rtcNewDevice(fmt::format("threads={}", threads).c_str());
   if (!e.device) return {StatusCode::kInternal, "Embree offers no device on this processor"};
   e.scene = rtcNewScene(e.device);
   // Robust: rays do not slip through edges. The context's filter collects all hits of a ray.
@@ -244,8 +246,8 @@ void RayScene::distances(Vec3 origin, const Bundle& bundle, float far, bool near
 }
 
 int RayScene::part_around(Vec3 point) const {
-  // A ray from inside a closed part leaves it once more often than it enters. Three directions
-  // vote, so that a grazed edge does not decide.
+  // A ray from inside a closed part leaves it one time more than it enters it. The majority of
+  // three directions decides, so that a grazed edge does no harm.
   const Vec3 directions[] = {{0.8, 0.33, -0.5}, {-0.45, 0.71, 0.54}, {-0.27, -0.61, -0.74}};
   std::vector<std::vector<int>> inside;
   std::vector<Hit> hits;

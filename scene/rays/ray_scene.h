@@ -19,8 +19,9 @@ class RayScene {
     int part = 0;  // of Mesh::parts; spheres follow, one each
   };
 
-  // Takes the mesh over. Its indices must be valid and its coordinates finite.
-  static Status create(Mesh mesh, std::unique_ptr<RayScene>* scene);
+  // Takes the mesh over. Its indices must be valid and its coordinates finite. `threads` prepare
+  // it; 0: every processor.
+  static Status create(Mesh mesh, std::unique_ptr<RayScene>* scene, int threads = 0);
   ~RayScene();
 
   const Mesh& mesh() const { return mesh_; }

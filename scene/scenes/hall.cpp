@@ -3,9 +3,9 @@
 #include "scene/scenes/scene.h"
 #include "scene/scenes/shapes.h"
 
-// A nave between two rows of columns that carry arches, aisles behind them, steps up to a gate
-// with the sky behind it, chains and lamps from the beams: large planes and thin things, in the
-// spirit of the atria that ambient occlusion is shown with.
+// A nave between two rows of columns with arches, aisles behind them, steps up to a gate with the
+// sky behind it, chains and lamps that hang from the beams: large planes and thin objects, like the
+// atria in papers on ambient occlusion.
 
 namespace obscura::tools {
 namespace {

@@ -17,7 +17,7 @@ struct SeedOption {
 };
 template <FieldsOf<SeedOption> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 Status find_kind(const std::string& name, const SceneKind** kind) {
@@ -89,7 +89,8 @@ Status build_and_render(const std::string& spec, const ViewOptions& given, Execu
   LayerSpec layers = options.layer_spec();
   if (layers.sheet_thickness == 0) layers.sheet_thickness = scene.sheet_thickness;
   std::unique_ptr<RayScene> rays;
-  if (Status s = RayScene::create(std::move(scene.mesh), &rays); !s.ok()) return named(s);
+  if (Status s = RayScene::create(std::move(scene.mesh), &rays, executor.thread_count()); !s.ok())
+    return named(s);
   DepthInput gbuffer;
   gbuffer.name = spec;
   Status s = render_gbuffer(*rays, scene.view, layers, executor, &gbuffer);

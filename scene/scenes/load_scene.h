@@ -27,7 +27,7 @@ bool is_scene(const std::string& spec);
 Status load_scene(const std::string& spec, const ViewOptions& options, Executor& executor,
                   Rendering* rendering);
 
-// The same with default options on every processor, for who needs the pixels only.
+// The same with default options and all processors, if only the pixels are needed.
 Status load_scene(const std::string& spec, DepthInput* input);
 
 }  // namespace obscura::tools

@@ -69,7 +69,7 @@ class Meadow {
   Vec3 on_ground(double x, double z) const { return {x, height(x, z), z}; }
 
   void rock(int index) {
-    // One in the foreground, the others where they fall.
+    // One is in the foreground, the others are at random places.
     const double x = index == 0 ? 1.6 : random_.in(-7, 7);
     const double z = index == 0 ? kEyeZ - 4.6 : kEyeZ - 4 - 11 * random_.unit();
     const double size = index == 0 ? 0.62 : 0.12 + 0.5 * random_.unit() * random_.unit();

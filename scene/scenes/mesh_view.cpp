@@ -70,7 +70,9 @@ Status load_and_render(const std::string& path, const MeshOptions& options, Exec
   if (!options.sheets) find_solids(&mesh);
   if (options.ground) add_ground(normalize(view.up), bounds, &mesh);
   std::unique_ptr<RayScene> scene;
-  if (Status s = RayScene::create(std::move(mesh), &scene); !s.ok()) return s;
+  if (Status s = RayScene::create(std::move(mesh), &scene, executor.thread_count()); !s.ok()) {
+    return s;
+  }
   DepthInput gbuffer;
   gbuffer.name = path;
   Status s = render_gbuffer(*scene, view, options.view.layer_spec(), executor, &gbuffer);

@@ -3,14 +3,14 @@
 #include "scene/scenes/scene.h"
 #include "scene/scenes/shapes.h"
 
-// Scenes whose visibility can be written down.
+// Scenes whose visibility has a closed form.
 
 namespace obscura::tools {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr Range kLengths{1e-6, 1e6};  // what floats still tell apart from the camera
-// Faces that stand for infinite ones reach this many times the camera's distance.
+// Faces that replace infinite ones are this many times as long as the camera's distance.
 constexpr double kFar = 40;
 
 struct PlaneSettings {

@@ -22,8 +22,8 @@ Receiver receiver(const DepthInput& g, int x, int y) {
           {g.normal_x[i], g.normal_y[i], g.normal_z[i]}};
 }
 
-// 1 for a neighbour on the receiver's tangent plane with its normal; never 0, so that a pixel
-// unlike all four still gets their mean.
+// 1 for a neighbour on the receiver's tangent plane with the same normal; never 0, so that a pixel
+// that differs from all four still gets their mean.
 double likeness(const Receiver& p, const Receiver& q) {
   const Vec3 step = q.position - p.position;
   const double off_plane = std::abs(dot(step, p.normal)) / (length(step) + 1e-30);

@@ -78,7 +78,7 @@ class Rho {
   bool any_will_do_ = false;
 };
 
-// What one set of directions says about a pixel.
+// Result of one set of directions for a pixel.
 struct Estimate {
   double visibility = 0;  // mean V
   double error = 0;       // its standard error
@@ -215,7 +215,7 @@ Status trace_geometric(const Rendering& rendering, const GeometricSettings& sett
                        const Outputs& outputs, const RunOptions& options) {
   if (Status s = check(rendering, settings, outputs); !s.ok()) return s;
   std::unique_ptr<Executor> own;
-  if (!options.executor) own = make_executor();
+  if (!options.executor) own = make_executor(options.threads);
   Executor& executor = options.executor ? *options.executor : *own;
 
   const bool uniform_visibility = settings.weighting == RayWeighting::kUniform;

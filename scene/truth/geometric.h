@@ -6,19 +6,21 @@
 #include "obscura/falloff.h"
 #include "obscura/outputs.h"
 #include "obscura/reference.h"
+#include "obscura/run_options.h"
 #include "scene/scenes/load_scene.h"
 
 namespace obscura::tools {
 
 // Ambient visibility on the real geometry, by ray tracing: the same integrals as those of the
-// screen-space reference, but rays meet the scene itself, also what the camera does not see.
+// screen-space reference, but rays meet the scene itself, also what the camera does not see. Takes
+// any falloff.
 struct GeometricSettings {
-  Falloff falloff{};                               // any; exponential by default
-  int rays = 256;                                  // [1, 2^20] per pixel and kind of output
-  RayWeighting weighting = RayWeighting::kCosine;  // of visibility
-  int every = 1;  // [1, 1000]: trace pixels x, y with x % every == y % every == every / 2
-  bool interpolate = false;  // fill the others from them; else they become NaN
-  double offset = 0;         // world units by which rays start off the surface; 0: 1e-5 scene sizes
+  Falloff falloff{};
+  int rays = 256;
+  RayWeighting weighting = RayWeighting::kCosine;
+  int every = 1;  // pixels with x % every == y % every == every / 2
+  bool interpolate = false;
+  double offset = 0;
   std::uint32_t seed = 1;
 };
 
@@ -40,15 +42,33 @@ Status trace_geometric(const Rendering& rendering, const GeometricSettings& sett
 template <FieldsOf<GeometricSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
-  v(s.rays, Field{"rays", "", closed(1, 1 << 20), "Rays per pixel."});
-  v(s.weighting, Field{"weighting", "", {}, "How visibility weighs directions."});
-  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace every N-th pixel in x and y only."});
-  v(s.interpolate, Field{"interpolate", "", {}, "Fill the pixels between; else they are NaN."});
-  v(s.offset, Field{"offset", "world units", at_least(0),
-                    "How far off the surface rays start; 0 is 1e-5 scene sizes."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.rays, Field{"rays", "", closed(1, 1 << 20), "Rays per pixel and kind of output."});
+  v(s.weighting, Field{"weighting",
+                       "",
+                       {},
+                       "How directions are weighted: by the cosine to the normal, or equally."});
+  v(s.every, Field{"every", "pixels", closed(1, 1000), "Trace only every N-th pixel in x and y."});
+  v(s.interpolate,
+    Field{"interpolate", "", {}, "Fill the pixels between; otherwise they are NaN."});
+  v(s.offset,
+    Field{"offset", "world units", at_least(0),
+          "Distance from the surface at which rays start; 0 chooses 1e-5 of the scene size."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 }  // namespace obscura::tools
+
+namespace obscura {
+
+template <>
+struct MethodInfo<tools::GeometricSettings> {
+  static constexpr const char* name = "geometric";
+  static constexpr const char* summary =
+      "Reference: rays against the real geometry of a scene or mesh";
+  static constexpr const char* page = "docs/scenes.md";
+  static constexpr bool on_vulkan = false;
+};
+
+}  // namespace obscura
 
 #endif  // OBSCURA_SCENE_TRUTH_GEOMETRIC_H_

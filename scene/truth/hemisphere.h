@@ -44,9 +44,9 @@ class Hemisphere {
     return on_ring(stratum, v, std::sqrt(std::max(0.0f, 1 - z * z)), z);
   }
 
-  // Standard error of the mean of one value per stratum. A stratum's variance is estimated from
-  // the second difference with its neighbours on the ring, so that a value that changes steadily
-  // around the ring, which stratification integrates well, is not taken for noise.
+  // Standard error of the mean of one value per stratum. The variance of a stratum is estimated
+  // from the second difference with its neighbours on the ring. So a steady change around the ring,
+  // which stratification integrates well, does not count as noise.
   double standard_error(const std::vector<float>& v) const {
     const int n = count();
     double sum = 0;

@@ -20,8 +20,8 @@ struct GuardBandSpec {
   GuardBand resolve(ImageSize visible) const;
 };
 
-// What a user may say about a view, for procedural scenes and meshes alike. What is left out is the
-// scene's own, or frames the mesh.
+// Options of a view, for procedural scenes and meshes. Options that are not set keep the scene's
+// own view, or show the whole mesh.
 struct ViewOptions {
   ImageSize size{};
   GuardBandSpec guard_band{};

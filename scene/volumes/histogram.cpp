@@ -79,7 +79,7 @@ Status otsu_threshold(const VolumeImage& image, const Histogram& h, double* thre
     if (below == 0 || above == 0) continue;
     const double apart = sum / below - (total - sum) / above;
     const double between = below * above * apart * apart;
-    // A gap between the classes gives a run of equal maxima, whose middle is the threshold.
+    // A gap between the classes gives several equal maxima; the threshold is the middle of them.
     if (between > best * (1 + 1e-12)) {
       best = between;
       first = last = i;

@@ -73,16 +73,16 @@ Status read_raw(const std::string& path, const RawLayout& layout, VolumeImage* i
 }
 
 Status load(Format format, const std::string& spec, const std::optional<RawLayout>& raw,
-            VolumeImage* image) {
+            VolumeImage* image, int threads) {
   switch (format) {
     case Format::kProcedural:
-      return make_procedural_volume(spec, image);
+      return make_procedural_volume(spec, image, threads);
     case Format::kNifti:
       return read_nifti(spec, image);
     case Format::kNrrd:
       return read_nrrd(spec, image);
     case Format::kVdb:
-      return read_vdb(spec, image);
+      return read_vdb(spec, image, threads == 1);
     case Format::kRaw:
       if (raw) return read_raw(spec, *raw, image);
       return invalid_argument(
@@ -100,15 +100,15 @@ Status load(Format format, const std::string& spec, const std::optional<RawLayou
 
 bool is_volume(const std::string& spec) { return format_of(spec) != Format::kNone; }
 
-Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw,
-                   VolumeImage* image) {
+Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw, VolumeImage* image,
+                   int threads) {
   const Format format = format_of(spec);
   if (raw && format != Format::kRaw) {
     return invalid_argument(
         fmt::format("{}: says its own layout; size and type are for .raw files", spec));
   }
   try {
-    return load(format, spec, raw, image);
+    return load(format, spec, raw, image, threads);
   } catch (const std::bad_alloc&) {
     return {StatusCode::kOutOfMemory, fmt::format("{}: does not fit in memory", spec)};
   }

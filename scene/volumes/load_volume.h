@@ -8,7 +8,8 @@
 
 namespace obscura::tools {
 
-// What a .raw file does not say of itself: x fastest, little-endian unless `big_endian`.
+// What a .raw file does not contain: its layout. x runs fastest, samples are little-endian unless
+// `big_endian`.
 struct RawLayout {
   std::array<int, 3> size{};
   VoxelType type = VoxelType::kU8;
@@ -19,9 +20,10 @@ struct RawLayout {
 // Whether load_volume would take the name: a procedural volume's, or an ending of a volume file.
 bool is_volume(const std::string& spec);
 
-// Loads volume:NAME?key=value&..., .nii, .nii.gz, .nrrd, .nhdr, .vdb or .raw.
-Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw,
-                   VolumeImage* image);
+// Loads volume:NAME?key=value&..., .nii, .nii.gz, .nrrd, .nhdr, .vdb or .raw; `threads` as for
+// make_executor.
+Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw, VolumeImage* image,
+                   int threads = 0);
 
 // What the volume holds: format, size, type, spacing, place in the world, range, counts of values
 // that are not finite, histogram and Otsu's threshold.

@@ -22,7 +22,7 @@ struct Options {
 template <FieldsOf<Options> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   v(s.size, Field{"size", "voxels", closed(2, 2048), "Voxels along each side."});
-  v(s.seed, Field{"seed", "", anything(), "Seed of everything random."});
+  v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 
 // Uniform numbers in [0, 1) from a seed (splitmix64).
@@ -286,7 +286,7 @@ std::string procedural_volume_names() {
   return names;
 }
 
-Status make_procedural_volume(const std::string& spec, VolumeImage* image) {
+Status make_procedural_volume(const std::string& spec, VolumeImage* image, int threads) {
   const Kind* kind = nullptr;
   Options options;
   if (Status s = parse(spec, &kind, &options); !s.ok()) return s;
@@ -306,7 +306,7 @@ Status make_procedural_volume(const std::string& spec, VolumeImage* image) {
   result.samples.resize(std::size_t(result.voxels()) * sizeof(float));
   auto* out = reinterpret_cast<float*>(result.samples.data());
   const Shape shape = kind->make(options.seed);
-  const auto executor = make_executor();
+  const auto executor = make_executor(threads);
   executor->parallel_for(n, [&](int z, int) {
     float* row = out + std::size_t(z) * n * n;
     for (int y = 0; y < n; ++y) {

@@ -24,7 +24,7 @@ bool parse_numbers(std::string_view text, std::vector<double>* values) {
   }
 }
 
-// Runs a loop where it is called: render_surface has its own threads.
+// Runs loops in the calling thread, as render_surface has threads of its own.
 class InlineExecutor : public Executor {
  public:
   int thread_count() const override { return 1; }
@@ -104,7 +104,7 @@ unsigned upper_octants(const VolumeImage& image) {
 
 Status VolumeShading::prepare(const VolumeImage& image, GridView<const float> distance,
                               const VolumeLight& light, const OcclusionSettings& occlusion,
-                              const VolumeTruth& truth, const VolumeRun& run) {
+                              const VolumeTruth& truth, const RunOptions& run) {
   if (truth.monte_carlo && light.kind != VolumeLight::kAmbient &&
       light.kind != VolumeLight::kShadow) {
     return invalid_argument("monte-carlo knows the lights ao and shadow:X,Y,Z only");
@@ -146,7 +146,7 @@ SurfaceShader VolumeShading::shader(const SurfaceCamera& camera) const {
   }
   return [this](int first_row, std::span<const SurfacePoint> points, std::span<float> light) {
     InlineExecutor executor;
-    VolumeRun run;
+    RunOptions run;
     run.executor = &executor;
     if (!truth_.monte_carlo) return field_.light(points, settings_, light, run);
     MonteCarloSettings settings = truth_.settings;

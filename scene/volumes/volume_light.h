@@ -8,7 +8,7 @@
 
 namespace obscura::tools {
 
-// What light a picture of a volume shows.
+// The light in a picture of a volume.
 struct VolumeLight {
   enum Kind { kAmbient, kHeadlight, kOctants, kShadow, kTranslucent };
   Kind kind = kAmbient;
@@ -39,7 +39,7 @@ class VolumeShading {
   // Sweeps what the light needs. The distance field must outlive the shading.
   Status prepare(const VolumeImage& image, GridView<const float> distance, const VolumeLight& light,
                  const OcclusionSettings& occlusion, const VolumeTruth& truth,
-                 const VolumeRun& run);
+                 const RunOptions& run);
 
   // For render_surface; the camera must outlive the shader.
   SurfaceShader shader(const SurfaceCamera& camera) const;

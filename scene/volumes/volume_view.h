@@ -11,7 +11,8 @@ namespace obscura::tools {
 
 enum class Projection { kPerspective, kOrthographic };
 
-// What a user may say about the view of a volume, in the world; what is left out frames the matter.
+// Options of the view of a volume, in world space. Options that are not set are chosen so that all
+// matter is visible.
 struct VolumeViewOptions {
   ImageSize size{768, 768};
   Projection camera = Projection::kPerspective;

@@ -1,4 +1,4 @@
-// Plain threads, for ThreadSanitizer: it reports races inside Debian's TBB that are none.
+// Plain threads, for ThreadSanitizer: it reports false races inside Debian's TBB.
 #include <algorithm>
 #include <atomic>
 #include <thread>

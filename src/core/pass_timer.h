@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "obscura/outputs.h"
+#include "obscura/run_options.h"
 
 namespace obscura {
 
-// Adds up what the passes of a run take, by name; does nothing, not even read a clock, where nobody
-// asked.
+// Adds up the time of the passes of a run, by name. If nobody asked for it, it does nothing and
+// reads no clock.
 class PassTimer {
  public:
   explicit PassTimer(std::vector<PassTime>* times = nullptr) : times_(times) {

@@ -19,7 +19,8 @@ class Progress {
   bool advance(std::int64_t amount = 1) {
     const std::int64_t done = done_.fetch_add(amount, std::memory_order_relaxed) + amount;
     if (callback_ && mutex_.try_lock()) {
-      // Not again once it has said stop, also by a thread that was waiting at this door.
+      // Do not call it again once it has asked to stop, also not from a thread that waited for the
+      // lock.
       if (!cancelled() && !callback_(static_cast<double>(done) / static_cast<double>(total_))) {
         cancelled_ = true;
       }

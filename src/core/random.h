@@ -2,6 +2,7 @@
 #define OBSCURA_SRC_CORE_RANDOM_H_
 
 #include <cstdint>
+#include <vector>
 
 namespace obscura {
 
@@ -23,6 +24,17 @@ class Random {
  private:
   std::uint64_t state_;
 };
+
+// 0 ... count - 1 in random order.
+inline std::vector<int> shuffled(int count, Random* random) {
+  std::vector<int> order(count);
+  for (int i = 0; i < count; ++i) {
+    const int j = random->below(i + 1);
+    order[i] = order[j];
+    order[j] = i;
+  }
+  return order;
+}
 
 }  // namespace obscura
 

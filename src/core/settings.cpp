@@ -56,7 +56,7 @@ bool SettingText<Occluder>::parse(std::string_view given, Occluder* value) {
   Occluder parsed;
   if (given.starts_with("thickness:")) {
     parsed = Occluder::of_thickness(static_cast<float>(number));
-  } else if (given.starts_with("layers:") && number >= 1 && number <= 64 &&
+  } else if (given.starts_with("layers:") && Occluder::kLayersRange.contains(number) &&
              number == std::floor(number)) {
     parsed = Occluder::of_layers(static_cast<int>(number));
   } else {
@@ -65,6 +65,11 @@ bool SettingText<Occluder>::parse(std::string_view given, Occluder* value) {
   if (!validate(parsed).ok()) return false;
   *value = parsed;
   return true;
+}
+
+std::string SettingText<Occluder>::form() {
+  return text("solid, thickness:T with T in ", to_string(Occluder::kThicknessRange),
+              ", back-depth or layers:K with K in ", to_string(Occluder::kLayersRange));
 }
 
 std::string SettingText<Occluder>::write(const Occluder& value) {
@@ -110,13 +115,12 @@ Status validate(const Falloff& falloff) {
 
 Status validate(const Occluder& occluder) {
   if (occluder.kind == OccluderKind::kThickness &&
-      !(occluder.thickness > 0 && std::isfinite(occluder.thickness))) {
-    return invalid_argument(
-        text("occluder thickness is ", occluder.thickness, "; it must be in (0, inf)"));
+      !Occluder::kThicknessRange.contains(occluder.thickness)) {
+    return out_of_range({"occluder thickness", "", Occluder::kThicknessRange, ""},
+                        occluder.thickness);
   }
-  if (occluder.kind == OccluderKind::kLayers && (occluder.layers < 1 || occluder.layers > 64)) {
-    return invalid_argument(
-        text("occluder layers is ", occluder.layers, "; it must be in [1, 64]"));
+  if (occluder.kind == OccluderKind::kLayers && !Occluder::kLayersRange.contains(occluder.layers)) {
+    return out_of_range({"occluder layers", "", Occluder::kLayersRange, ""}, occluder.layers);
   }
   return {};
 }

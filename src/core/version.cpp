@@ -5,7 +5,12 @@
 
 namespace obscura {
 
-const char* version() { return OBSCURA_VERSION; }
+#define OBSCURA_TEXT_OF(x) #x
+#define OBSCURA_DOTTED(a, b, c) OBSCURA_TEXT_OF(a) "." OBSCURA_TEXT_OF(b) "." OBSCURA_TEXT_OF(c)
+
+const char* version() {
+  return OBSCURA_DOTTED(OBSCURA_VERSION_MAJOR, OBSCURA_VERSION_MINOR, OBSCURA_VERSION_PATCH);
+}
 
 const char* simd_target() {
   // Lower bits are better targets; only those compiled in can be chosen.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 
 inline std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 inline std::uint32_t bits(int value) { return static_cast<std::uint32_t>(value); }
@@ -34,6 +34,6 @@ class Quads {
   std::vector<float> words_;
 };
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu
 
 #endif  // OBSCURA_SRC_GPU_QUADS_H_

@@ -26,7 +26,7 @@ struct CubeGrid {
   struct Vertex {
     int face, i, j;
   };
-  // The same for all faces that share a vertex: the first of them.
+  // The face that owns a vertex: the first of those that share it.
   Vertex owner(Vertex v) const {
     const std::array<int, 3> p = lattice(v);
     for (int face = 0; face < v.face; ++face) {

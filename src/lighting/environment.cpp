@@ -6,6 +6,7 @@
 #include <new>
 #include <numbers>
 
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "lighting/environment_impl.h"
 
@@ -57,7 +58,7 @@ struct Mend {
 // Shares the light of a latitude-longitude map, value(x, y), among a cube's vertices. Pixels are
 // split until several fall into each cell of the cube.
 template <class Value>
-RadianceMap resample(int width, int height, const Value& value, Executor* executor) {
+RadianceMap resample(int width, int height, const Value& value, Executor& executor) {
   const CubeGrid grid{lighting::kRadianceCells};
   // The smallest cells lie in the faces' corners; their height there is at least a third of this.
   const double cell = 2.0 / grid.cells;
@@ -73,12 +74,7 @@ RadianceMap resample(int width, int height, const Value& value, Executor* execut
   constexpr int kBands = 8;
   std::vector<LightSum> bands(kBands, LightSum(grid));
   const int rows = height * split;
-  std::unique_ptr<Executor> own;
-  if (!executor) {
-    own = make_executor();
-    executor = own.get();
-  }
-  executor->parallel_for(kBands, [&](int band, int) {
+  executor.parallel_for(kBands, [&](int band, int) {
     const auto first = static_cast<int>(std::int64_t{rows} * band / kBands);
     const auto end = static_cast<int>(std::int64_t{rows} * (band + 1) / kBands);
     for (int j = first; j < end; ++j) {
@@ -144,7 +140,9 @@ Status check_sun(const Sun& sun, Sun* checked) {
 }  // namespace lighting
 
 Status Environment::from_lat_long(const VectorView<const float>& rgb, Environment* environment,
-                                  EnvironmentRepairs* repairs, Executor* executor) {
+                                  EnvironmentRepairs* repairs, const RunOptions& options) {
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
   if (Status s = check_map(rgb); !s.ok()) return s;
   Mend mend;
   mend.scan(rgb);
@@ -158,7 +156,7 @@ Status Environment::from_lat_long(const VectorView<const float>& rgb, Environmen
         [&](int x, int y) {
           return Rgb{mend(rgb.x(x, y), 0), mend(rgb.y(x, y), 1), mend(rgb.z(x, y), 2)};
         },
-        executor);
+        threads.executor());
     environment->impl_ = std::move(impl);
   } catch (const std::bad_alloc&) {
     return {StatusCode::kOutOfMemory, "out of memory while reading the environment"};
@@ -168,7 +166,9 @@ Status Environment::from_lat_long(const VectorView<const float>& rgb, Environmen
 }
 
 Status Environment::from_sky(const SkySettings& settings, Environment* environment,
-                             Executor* executor) {
+                             const RunOptions& options) {
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   try {
     auto impl = std::make_shared<Impl>();
@@ -185,7 +185,7 @@ Status Environment::from_sky(const SkySettings& settings, Environment* environme
     }
     impl->map = resample(
         kWidth, kHeight, [&](int x, int y) { return pixels[std::size_t(y) * kWidth + x]; },
-        executor);
+        threads.executor());
     impl->sun = sky.sun();
     environment->impl_ = std::move(impl);
   } catch (const std::bad_alloc&) {

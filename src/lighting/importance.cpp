@@ -5,11 +5,12 @@
 #include <numbers>
 #include <vector>
 
+#include "core/check_sphere.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "filters/bilateral/bilateral.h"
-#include "screen/volumetric/volumetric.h"
 #include "view/geometry.h"
 
 namespace obscura {
@@ -40,7 +41,7 @@ class LightTable {
       cumulative_.push_back(sum);
       sum += luminance(environment.radiance(direction(i, 0.5, 0.5))) * kCell;
     }
-    // A part of the directions goes to where the cells' middles saw nothing.
+    // Every cell gets some directions, also those whose centre saw no light.
     const double floor = 0.05 * sum / (kRows * kColumns);
     for (int i = 0; i < kRows * kColumns; ++i) cumulative_[i] += i * floor;
     cumulative_.push_back(1.05 * sum);
@@ -113,8 +114,8 @@ double radical_inverse(int i, int base) {
   return result;
 }
 
-// samples x m x m directions, each pixel's beside each other: sample s of a pixel lies in stratum s
-// of the power.
+// samples x m x m directions; those of one pixel are stored together. Sample s of a pixel lies in
+// stratum s of the light's power.
 std::vector<LightSample> make_samples(const Environment& environment,
                                       const ImportanceSettings& settings) {
   const LightTable table(environment);
@@ -128,7 +129,7 @@ std::vector<LightSample> make_samples(const Environment& environment,
   const std::array<float, 9>& m = settings.world_from_eye;
   for (int cell = 0; cell < cells; ++cell) {
     for (int s = 0; s < settings.samples; ++s) {
-      // Another rank in each stratum.
+      // The pixel's rank differs from stratum to stratum.
       const int rank = (order[cell] + 7 * s) % cells, i = s * cells + rank;
       const double pick = (s + (rank + 0.5) / cells) / settings.samples;
       const double a = radical_inverse(i + 1, 2) + turn_a, b = radical_inverse(i + 1, 3) + turn_b;
@@ -204,12 +205,12 @@ class Marcher {
 Status check(const DepthField& field, const Environment& environment,
              const ImportanceSettings& settings, const VectorView<float>& out) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (Status s = check_sphere(settings.falloff, settings.occluder); !s.ok()) return s;
   if (environment.empty()) return invalid_argument("environment is empty");
   for (const auto* view : {&out.x, &out.y, &out.z}) {
-    if (view->width == field.visible_width() && view->height == field.visible_height()) continue;
+    if (view->width == field.visible().width && view->height == field.visible().height) continue;
     return invalid_argument(text("out is ", view->width, "x", view->height, "; it must be ",
-                                 field.visible_width(), "x", field.visible_height(),
+                                 field.visible().width, "x", field.visible().height,
                                  ", the visible size"));
   }
   return {};
@@ -221,13 +222,14 @@ Status light_by_importance(const DepthField& field, const Environment& environme
                            const ImportanceSettings& settings, const VectorView<float>& out,
                            const RunOptions& options) {
   if (Status s = check(field, environment, settings, out); !s.ok()) return s;
-  const std::unique_ptr<Executor> own = options.executor ? nullptr : make_executor();
-  Executor& executor = options.executor ? *options.executor : *own;
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   view::Geometry g;
   if (Status s = view::convert(field, {.normals = true}, executor, &g); !s.ok()) return s;
   const std::vector<LightSample> samples = make_samples(environment, settings);
   const Marcher marcher(g, settings);
-  const int width = g.visible_width(), height = g.visible_height(), m = settings.interleave;
+  const int width = g.visible().width, height = g.visible().height, m = settings.interleave;
   Progress progress(height, options.progress);
   executor.parallel_for(height, [&](int row, int) {
     if (progress.cancelled()) return;
@@ -243,7 +245,7 @@ Status light_by_importance(const DepthField& field, const Environment& environme
               samples[static_cast<std::size_t>(cell) * settings.samples + s];
           const float cosine = dot(n, sample.w);
           if (!(cosine > 0)) continue;
-          // Spread over the pattern's pixels and the pixel's samples, never 0.
+          // Offsets differ between the pattern's pixels and between samples; none is 0.
           const double spread = (cell + 0.5) / (m * m) + s * std::numbers::phi;
           const float offset = static_cast<float>(spread - std::floor(spread));
           const float lit = cosine * marcher.visibility(p, n, sample.w, offset);

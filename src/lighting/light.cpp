@@ -5,6 +5,7 @@
 
 #include "core/aligned_image.h"
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "lighting/light_kernel.h"
 #include "lighting/preconvolved_impl.h"
@@ -39,7 +40,7 @@ class SizeCheck {
   Status status_;
 };
 
-// Rows of any stride, copied to and from one worker's padded memory.
+// Copies rows of any stride to and from the padded memory of one worker.
 class Rows {
  public:
   Rows(int width, int count) : width_(width), memory_(width, count) {}
@@ -62,9 +63,9 @@ class Rows {
 // body(rows, y) for each row of an image, on threads.
 Status for_rows(int width, int height, int scratch_rows, const RunOptions& options,
                 FunctionRef<void(Rows&, int)> body) {
-  std::unique_ptr<Executor> own;
-  if (!options.executor) own = make_executor();
-  Executor& executor = options.executor ? *options.executor : *own;
+  const RunThreads threads(options);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   std::vector<Rows> scratch;
   scratch.reserve(executor.thread_count());
   for (int k = 0; k < executor.thread_count(); ++k) scratch.emplace_back(width, scratch_rows);
@@ -108,7 +109,7 @@ lighting::LightFrame make_frame(const PreconvolvedEnvironment::Impl& environment
     for (int i = 0; i < 3; ++i) f.sun[k] += s.world_from_eye[3 * i + k] * sun.direction[i];
     f.sun_rgb[k] = sun.irradiance[k] / std::numbers::pi_v<float>;
   }
-  // A disc of no size would divide by zero.
+  // Avoids a division by zero for a disc of size 0.
   f.sun_radius = std::max(sun.angular_radius, 1e-4f);
   return f;
 }

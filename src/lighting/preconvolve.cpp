@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "lighting/environment_impl.h"
 #include "lighting/preconvolved_impl.h"
@@ -72,9 +73,9 @@ Status PreconvolvedEnvironment::make(const Environment& environment,
     constexpr int kGroup = lighting::kConvolutionGroup;
     const int groups = static_cast<int>((owned.size() + kGroup - 1) / kGroup);
 
-    std::unique_ptr<Executor> own;
-    if (!options.executor) own = make_executor();
-    Executor& executor = options.executor ? *options.executor : *own;
+    const RunThreads threads(options);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
     Progress progress(groups, options.progress);
     executor.parallel_for(groups, [&](int group, int) {
       if (progress.cancelled()) return;

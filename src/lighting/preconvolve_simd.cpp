@@ -43,7 +43,8 @@ void ConvolvePass(const Convolution& c, int first, V x, V y, V z, int count,
     }
   }
   for (int k = 0; k < kPerPass; ++k) {
-    // Divided by the same sources' own weight rather than pi sin^2(a): a constant stays exactly so.
+    // Divided by the sum of the weights rather than pi sin^2(a), so that constant light stays
+    // exactly constant.
     const V scale = hn::Div(one, whole[k]);
     HWY_ALIGN float rgb[3][kConvolutionGroup];
     hn::Store(hn::Mul(red[k], scale), d, rgb[0]);

@@ -3,81 +3,14 @@
 #include <cmath>
 #include <new>
 
+#include "core/run_threads.h"
 #include "core/text.h"
-#include "screen/far_field/plan.h"
 #include "screen/half_resolution/half_resolution.h"
-#include "screen/hemisphere/plan.h"
-#include "screen/horizon/plan.h"
 #include "screen/method.h"
-#include "screen/mipmap/plan.h"
-#include "screen/reference/plan.h"
-#include "screen/volumetric/area/plan.h"
-#include "screen/volumetric/blurred.h"
-#include "screen/volumetric/dual.h"
-#include "screen/volumetric/line/plan.h"
-#include "screen/volumetric/point/plan.h"
-#include "screen/volumetric/point/screen_pattern.h"
 #include "view/half.h"
 
 namespace obscura {
 namespace {
-
-// A method of volumetric obscurance with what may be around it: a second radius and the blur.
-template <class Settings, class Make>
-Status make_volumetric(const Settings& s, Make make, int w, int h, std::unique_ptr<Method>* m) {
-  if (Status status = validate(s.dual); !status.ok()) return status;
-  if (Status status = make(s, m); !status.ok()) return status;
-  if (s.dual.second_radius) {
-    Settings other = s;
-    other.falloff.radius = *s.dual.second_radius;
-    std::unique_ptr<Method> second;
-    if (Status status = make(other, &second); !status.ok()) return status;
-    *m = make_dual(std::move(*m), std::move(second), s.dual.combine, w, h);
-  }
-  if (s.blur) *m = make_blurred(std::move(*m), s.falloff.radius, w, h);
-  return {};
-}
-
-Status make_method(const LineSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  return make_volumetric(s, make_line, w, h, m);
-}
-Status make_method(const AreaSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  auto make = [w, h](const AreaSettings& settings, std::unique_ptr<Method>* method) {
-    return make_area(settings, w, h, method);
-  };
-  return make_volumetric(s, make, w, h, m);
-}
-Status make_method(const PointSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  if (s.pattern == PointPattern::kBall) return make_volumetric(s, make_point, w, h, m);
-  // The screen pattern blurs by itself: directions go the same way as visibility.
-  auto make = [&](PointSettings settings, std::unique_ptr<Method>* method) {
-    settings.blur = s.blur;
-    return make_screen_point(settings, w, h, method);
-  };
-  PointSettings without_blur = s;
-  without_blur.blur = false;
-  return make_volumetric(without_blur, make, w, h, m);
-}
-
-Status make_method(const MipmapSettings& s, int, int, std::unique_ptr<Method>* m) {
-  return make_mipmap(s, m);
-}
-
-Status make_method(const FarFieldSettings& s, int, int, std::unique_ptr<Method>* m) {
-  return make_far_field(s, m);
-}
-
-Status make_method(const HemisphereSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  return make_hemisphere(s, w, h, m);
-}
-
-Status make_method(const HorizonSettings& s, int w, int h, std::unique_ptr<Method>* m) {
-  return make_horizon(s, w, h, m);
-}
-
-Status make_method(const ReferenceSettings& s, int, int, std::unique_ptr<Method>* m) {
-  return make_reference(s, m);
-}
 
 template <class Settings>
 Status make_any(const Settings& s, int w, int h, std::unique_ptr<Method>* m) {
@@ -97,9 +30,9 @@ Status check_output(const ImageView<T>& view, const DepthField& field, bool offe
                     const char* name) {
   if (view.empty()) return {};
   if (!offered) return unsupported(text("this method does not give ", name));
-  if (view.width == field.visible_width() && view.height == field.visible_height()) return {};
+  if (view.width == field.visible().width && view.height == field.visible().height) return {};
   return invalid_argument(text("output ", name, " is ", view.width, "x", view.height,
-                               "; it must be ", field.visible_width(), "x", field.visible_height(),
+                               "; it must be ", field.visible().width, "x", field.visible().height,
                                ", the visible size"));
 }
 
@@ -133,7 +66,7 @@ Status check_outputs(const Outputs& o, const DepthField& field, const OutputKind
 
 // Background pixels are not receivers: visibility 1, an open cone towards the camera.
 void fill_background(const view::Geometry& g, const Outputs& o, Executor& executor) {
-  executor.parallel_for(g.visible_height(), [&](int y, int) {
+  executor.parallel_for(g.visible().height, [&](int y, int) {
     const float* depth = g.depth.row(y + g.guard_band.top) + g.guard_band.left;
     auto set = [y](const ImageView<float>& view, int x, float value) {
       if (!view.empty()) view(x, y) = value;
@@ -143,7 +76,7 @@ void fill_background(const view::Geometry& g, const Outputs& o, Executor& execut
       set(v.y, x, 0);
       set(v.z, x, length);
     };
-    for (int x = 0; x < g.visible_width(); ++x) {
+    for (int x = 0; x < g.visible().width; ++x) {
       if (std::isfinite(depth[x])) continue;
       set(o.visibility, x, 1);
       set_vector(o.bent_normal, x, 1);
@@ -157,9 +90,9 @@ void fill_background(const view::Geometry& g, const Outputs& o, Executor& execut
 }
 
 void copy_normals(const view::Geometry& g, const VectorView<float>& out, Executor& executor) {
-  executor.parallel_for(g.visible_height(), [&](int y, int) {
+  executor.parallel_for(g.visible().height, [&](int y, int) {
     const int row = g.guard_band.top + y, left = g.guard_band.left;
-    for (int x = 0; x < g.visible_width(); ++x) {
+    for (int x = 0; x < g.visible().width; ++x) {
       out.x(x, y) = g.normal_x(left + x, row);
       out.y(x, y) = g.normal_y(left + x, row);
       out.z(x, y) = g.normal_z(left + x, row);
@@ -171,37 +104,35 @@ void copy_normals(const view::Geometry& g, const VectorView<float>& out, Executo
 
 class EstimatorImpl {
  public:
-  EstimatorImpl(std::unique_ptr<Method> method, int width, int height, int threads)
-      : method_(std::move(method)), width_(width), height_(height), threads_(threads) {}
+  EstimatorImpl(std::unique_ptr<Method> method, int width, int height)
+      : method_(std::move(method)), width_(width), height_(height) {}
 
   Status run(const DepthField& field, const Outputs& outputs, const RunOptions& options) {
     if (field.depth.width != width_ || field.depth.height != height_) {
       return invalid_input(text("depth is ", field.depth.width, "x", field.depth.height,
                                 "; this estimator was created for ", width_, "x", height_));
     }
-    Executor* executor = options.executor;
-    if (!executor) {
-      if (!own_executor_) own_executor_ = make_executor(threads_);
-      executor = own_executor_.get();
-    }
+    threads_.set(options);
+    if (!threads_.status().ok()) return threads_.status();
+    Executor& executor = threads_.executor();
     view::Needs needs = method_->needs();
     needs.normals = needs.normals || !outputs.normal.empty();
     const PassTimer timer(options.pass_times);
     Status status;
-    timer.time("convert", [&] { status = view::convert(field, needs, *executor, &geometry_); });
+    timer.time("convert", [&] { status = view::convert(field, needs, executor, &geometry_); });
     if (!status.ok()) return status;
     if (Status s = check_outputs(outputs, field, method_->output_kinds()); !s.ok()) return s;
-    const RunContext context{*executor, options.progress, timer};
+    const RunContext context{executor, options.progress, timer};
     if (Status s = method_->run(geometry_, outputs, context); !s.ok()) return s;
-    timer.time("background", [&] { fill_background(geometry_, outputs, *executor); });
-    if (!outputs.normal.empty()) copy_normals(geometry_, outputs.normal, *executor);
+    timer.time("background", [&] { fill_background(geometry_, outputs, executor); });
+    if (!outputs.normal.empty()) copy_normals(geometry_, outputs.normal, executor);
     return {};
   }
 
  private:
   std::unique_ptr<Method> method_;
-  const int width_, height_, threads_;
-  std::unique_ptr<Executor> own_executor_;
+  const int width_, height_;
+  RunThreads threads_;
   view::Geometry geometry_;
 };
 
@@ -210,21 +141,18 @@ Estimator::~Estimator() = default;
 Estimator::Estimator(Estimator&&) noexcept = default;
 Estimator& Estimator::operator=(Estimator&&) noexcept = default;
 
-Status Estimator::create(const MethodSettings& settings, int width, int height, int threads,
+Status Estimator::create(const MethodSettings& settings, int width, int height,
                          Estimator* estimator) {
   if (width < 1 || height < 1 || width > 65535 || height > 65535) {
     return invalid_argument(
         text("image size is ", width, "x", height, "; each side must be in [1, 65535]"));
-  }
-  if (threads < 0 || threads > 1024) {
-    return invalid_argument(text("threads is ", threads, "; it must be in [0, 1024]"));
   }
   try {
     std::unique_ptr<Method> method;
     Status status =
         std::visit([&](const auto& s) { return make_any(s, width, height, &method); }, settings);
     if (!status.ok()) return status;
-    estimator->impl_ = std::make_unique<EstimatorImpl>(std::move(method), width, height, threads);
+    estimator->impl_ = std::make_unique<EstimatorImpl>(std::move(method), width, height);
     return {};
   } catch (const std::bad_alloc&) {
     return {StatusCode::kOutOfMemory, "out of memory while creating the estimator"};
@@ -243,7 +171,7 @@ Status Estimator::run(const DepthField& field, const Outputs& outputs, const Run
 Status compute(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
                const RunOptions& options) {
   Estimator estimator;
-  Status status = Estimator::create(settings, field.depth.width, field.depth.height, 0, &estimator);
+  Status status = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
   return status.ok() ? estimator.run(field, outputs, options) : status;
 }
 

@@ -1,9 +1,12 @@
 #ifndef OBSCURA_SRC_SCREEN_METHOD_H_
 #define OBSCURA_SRC_SCREEN_METHOD_H_
 
+#include <memory>
+
 #include "core/pass_timer.h"
 #include "core/progress.h"
 #include "obscura/outputs.h"
+#include "obscura/run_options.h"
 #include "obscura/status.h"
 #include "view/geometry.h"
 
@@ -39,6 +42,12 @@ class Method {
   virtual Status run(const view::Geometry& geometry, const Outputs& outputs,
                      const RunContext& context) = 0;
 };
+
+// Makes a method for depth images of up to `width` x `height`, or refuses its settings. The cpu.cpp
+// of each method holds the specialisation for its settings.
+template <class Settings>
+Status make_method(const Settings& settings, int width, int height,
+                   std::unique_ptr<Method>* method);
 
 }  // namespace obscura
 

@@ -13,7 +13,7 @@ template <class Kernel>
 Status run_rows(const view::Geometry& g, const ImageView<float>& image, const RunContext& context,
                 Kernel kernel) {
   constexpr int kRowsPerTask = 8, kChunk = 1024;
-  const int width = g.visible_width(), height = g.visible_height();
+  const int width = g.visible().width, height = g.visible().height;
   Progress progress(height, context.progress);
   context.executor.parallel_for((height + kRowsPerTask - 1) / kRowsPerTask, [&](int task, int) {
     if (progress.cancelled()) return;

@@ -2,13 +2,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "view/depth_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kDepthKind = 0;  // DepthKind
-
-layout(binding = 0) uniform texture2D depth_image;
-layout(binding = 1) writeonly buffer Depth { float depth[]; };
 
 // `reversed` is 1 near and 0 far, `forward` the opposite; both keep precision at their own end.
 float from_ndc(float reversed, float forward) {

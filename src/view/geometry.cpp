@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/text.h"
+#include "view/check_view.h"
 #include "view/normals.h"
 
 namespace obscura::view {
@@ -29,31 +30,15 @@ Status check(const DepthField& field, const Needs& needs) {
     return invalid_input(text("depth is ", w, "x", h, "; each side must be in [1, 65535]"));
   }
   const GuardBand& g = field.guard_band;
-  if (g.left < 0 || g.right < 0 || g.top < 0 || g.bottom < 0 || field.visible_width() < 1 ||
-      field.visible_height() < 1) {
+  if (g.left < 0 || g.right < 0 || g.top < 0 || g.bottom < 0 || field.visible().width < 1 ||
+      field.visible().height < 1) {
     return invalid_input(text("guard_band (left ", g.left, ", right ", g.right, ", top ", g.top,
                               ", bottom ", g.bottom, ") leaves nothing visible of a ", w, "x", h,
                               " depth image"));
   }
-  const Camera& c = field.camera;
-  if (!(c.scale_x > 0 && c.scale_y > 0 && std::isfinite(c.scale_x) && std::isfinite(c.scale_y) &&
-        std::isfinite(c.center_u) && std::isfinite(c.center_v))) {
-    return invalid_input(text("camera scale is ", c.scale_x, " x ", c.scale_y, " and its center (",
-                              c.center_u, ", ", c.center_v,
-                              "); scales must be in (0, inf), the center finite"));
-  }
-  const bool ndc =
-      field.depth_kind == DepthKind::kNdc || field.depth_kind == DepthKind::kNdcReversed;
-  if (ndc && !(field.near_plane > 0 && std::isfinite(field.near_plane))) {
-    return invalid_argument(
-        text("near_plane is ", field.near_plane, "; NDC depth needs it in (0, far_plane)"));
-  }
-  if (std::isnan(field.far_plane) || !(field.far_plane > std::max(field.near_plane, 0.0f))) {
-    return invalid_argument(
-        text("far_plane is ", field.far_plane, "; it must be in (near_plane, inf]"));
-  }
-  if (ndc && c.orthographic && std::isinf(field.far_plane)) {
-    return invalid_argument("far_plane is inf; an orthographic NDC depth needs a finite one");
+  if (Status s = check_view(field.camera, field.depth_kind, field.near_plane, field.far_plane);
+      !s.ok()) {
+    return s;
   }
   if (!field.normals.empty()) {
     for (const auto* n : {&field.normals.x, &field.normals.y, &field.normals.z}) {

@@ -9,8 +9,8 @@
 
 namespace obscura::view {
 
-// A DepthField made uniform, the only form that estimators see: linear positive depth with +inf
-// for background, unit eye-space normals as three planes, the same padding everywhere.
+// A converted DepthField, the only form that estimators see: positive linear depth with +inf for
+// background, unit eye-space normals as three images, the same padding in all images.
 struct Geometry {
   struct Layer {
     AlignedImage<float> front, back;  // linear depth; front = +inf: no matter; back >= front
@@ -27,11 +27,10 @@ struct Geometry {
   std::vector<Layer> layers;           // when asked for
   float min_depth = 0, max_depth = 0;  // over finite pixels; both 0 where all is background
 
-  int visible_width() const { return width - guard_band.left - guard_band.right; }
-  int visible_height() const { return height - guard_band.top - guard_band.bottom; }
+  Extent visible() const { return guard_band.inside({width, height}); }
 };
 
-// What an estimator reads beside depth.
+// What an estimator needs in addition to depth.
 struct Needs {
   bool normals = false;
   bool back_depth = false;

@@ -5,13 +5,14 @@
 
 namespace obscura::view {
 
-// Of `size` pixels, from the first on.
+// How many of `size` pixels are every second one, from the first on.
 inline int half_of(int size) { return (size + 1) / 2; }
 
-// Which pixels along one axis of an image an image of half the size has: first + 2 i, so that the
-// first visible one is among them.
+// The pixels of an image of half the size, along one axis: pixel first + 2 i of the whole image.
+// The first visible pixel is among them.
 struct HalfAxis {
-  int first = 0, size = 0, before = 0, visible = 0;  // `before`: of the guard band
+  int first = 0, size = 0;
+  int before = 0, visible = 0;  // pixels of the guard band before the visible part, and of that
 
   int after() const { return size - before - visible; }
 };

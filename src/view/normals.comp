@@ -2,14 +2,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "view/normals_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool kGiven = false;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) writeonly buffer Normals { vec4 normals[]; };
-layout(binding = 2) uniform texture2D normal_image;
 
 float depth_at(int x, int y) {
   if (x < 0 || y < 0 || x >= view.width || y >= view.height) return kInf;

@@ -7,8 +7,8 @@
 
 namespace obscura::view {
 
-// A converted depth field as kernels see it that fetch single texels around each pixel. Rows and
-// columns count from the whole image; all images have the same stride.
+// A converted depth field for kernels that read single texels around each pixel. Rows and columns
+// are those of the whole image; all images have the same stride.
 struct TapFrame {
   const float* depth = nullptr;     // row 0
   const float* normal_x = nullptr;  // null: no normals
@@ -26,7 +26,7 @@ struct TapFrame {
   const float* noise_z = nullptr;  // directions in space only
 };
 
-// Beyond these a radius is past what depths in floats can tell apart or reach.
+// Clamps a radius to [1e-30, 1e30]: beyond, float depths can neither resolve nor reach it.
 float tap_radius(float radius);
 
 TapFrame make_tap_frame(const Geometry& geometry, float radius);

@@ -33,8 +33,8 @@ using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
 constexpr int kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 
-// Kernels work on blocks of a few vectors of pixels: first all their taps' indices, then all their
-// sums. No load then waits for the index that was stored just before it.
+// Kernels work on blocks of a few vectors of pixels. They first compute the indices of all taps,
+// then the sums, so that no load has to wait for an index that was stored just before.
 constexpr int kVectors = 4;
 
 // A tap can lie this many pixels away, more than any image is wide; it keeps coordinates finite.
@@ -53,7 +53,7 @@ struct Vec3 {
   V x, y, z;
 };
 
-// What one vector of pixels has in common for all its taps.
+// Values of one vector of pixels that all its taps use.
 struct Receivers {
   // The first pixel is (x, y) of the whole image; z are the depths.
   HWY_INLINE Receivers(const view::TapFrame& f, int x, int y, V depth) : z(depth) {
@@ -63,7 +63,7 @@ struct Receivers {
     const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
     distance = c.orthographic ? one : z;
     const V max_reach = hn::Set(d, kMaxReach);
-    // One division: it is what a pixel costs most for.
+    // Only one division: it is the most expensive operation per pixel.
     const V least = hn::Set(d, 1e-37f), per_distance = hn::Div(one, hn::Max(distance, least));
     reach_x = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_x), per_distance), max_reach);
     reach_y = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_y), per_distance), max_reach);

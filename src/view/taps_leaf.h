@@ -5,8 +5,8 @@
 // it: a visible surface cannot face away, but an interpolated normal can.
 const float kEdgeOn = -1e-4f;
 
-// Depths in floats are this coarse, as a share of themselves: what lies no more than that in front
-// of something is not in front of it.
+// Relative precision of float depths. A surface that is nearer than another by less than this does
+// not count as in front of it.
 const float kDepthGrain = 1e-6f;
 
 // How far along its ray, towards the camera, a normal n is bent with n.r = facing.

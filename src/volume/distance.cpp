@@ -3,6 +3,7 @@
 #include <new>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/distance_kernel.h"
 #include "volume/distance_start.h"
@@ -20,8 +21,9 @@ bool cuts(const DistanceSettings& settings, const VolumeRange& range) {
              : range.min <= settings.isovalue && settings.isovalue < range.max;
 }
 
-// One round of eight sweeps: along z and back, with two sweeps of each plane in either of two
-// stages. A stage needs only its own previous plane, so the second runs one plane behind the first.
+// One round of eight sweeps: along z and back. Each plane is swept in two stages of two orders
+// each. A stage needs only its own previous plane, so the second stage runs one plane behind the
+// first, on another thread.
 bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& second,
                  Executor& executor, Progress& progress) {
   const auto stride = distance.strides();
@@ -49,7 +51,7 @@ bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& 
 }
 
 Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridView<float> distance,
-             Executor& executor, const VolumeRun& run, DistanceReport* report) {
+             Executor& executor, const RunOptions& run, DistanceReport* report) {
   DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false);
   DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true);
 
@@ -73,7 +75,7 @@ Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridVie
 }  // namespace
 
 Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
-                      GridView<float> distance, const VolumeRun& run, DistanceReport* report) {
+                      GridView<float> distance, const RunOptions& run, DistanceReport* report) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(volume); !s.ok()) return s;
   if (Status s = validate_grid("distance", distance.data, distance.size, volume.spacing); !s.ok()) {
@@ -84,11 +86,11 @@ Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings
                               distance.size[2], "; it must be the volume's, ", volume.size[0], "x",
                               volume.size[1], "x", volume.size[2]));
   }
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   VolumeRange range;
-  VolumeRun unseen;  // the range is quick and reports no progress
+  RunOptions unseen;  // the range is quick and reports no progress
   unseen.executor = &executor;
   if (Status s = volume_range(volume, &range, unseen); !s.ok()) return s;
   if (!cuts(settings, range)) {

@@ -6,23 +6,23 @@
 
 namespace obscura {
 
-// Magnitudes of the distance field while it is swept. No grid reaches 1e30 in world units, and
-// nothing is ever updated from or to kOutside.
+// Magnitudes during the sweeps. No distance in a grid reaches 1e30 world units. Voxels outside the
+// grid hold kOutsideDistance; they are never updated, and no update comes from them.
 inline constexpr float kUnknownDistance = 1e30f;
 inline constexpr float kOutsideDistance = 3e38f;
 
-// Sweeps plane after plane with two of the four orders within a plane: x and y both rising and both
-// falling (`mirrored` false), or opposed (true).
+// Sweeps plane after plane in two of the four orders within a plane: x and y both rising, then both
+// falling; or, if `mirrored`, one rising and the other falling.
 //
-// The plane is held skewed: rows go in strips of as many as a vector has lanes, and vector t of a
-// strip holds x = t - j in lane j. A voxel's neighbours before it in x and y then lie in the vector
-// before its own, so a strip is swept vector by vector.
+// The plane is stored skewed: a strip has as many rows as a vector has lanes, and vector t of a
+// strip holds x = t - j in lane j. The neighbours of a voxel that come earlier in x and y then lie
+// in the vector before, so a strip is swept vector by vector.
 class DistanceStage {
  public:
   // Spacing along x, y and z.
   DistanceStage(int width, int height, const float spacing[3], bool mirrored);
 
-  // Forgets the plane before: the next is the first of its direction along z.
+  // Forgets the previous plane: the next plane is the first of its direction along z.
   void begin_pass() { first_ = true; }
 
   // Updates the magnitudes of one plane and keeps its signs. Strides are in floats.

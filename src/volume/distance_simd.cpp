@@ -38,8 +38,8 @@ using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 constexpr int kLanes = HWY_LANES(float) < 16 ? HWY_LANES(float) : 16;
-// Strips swept at the same time, each a little behind the one before it: a vector's update waits
-// for the one before it, and four independent ones hide that.
+// Strips swept at the same time, each a little behind the one before it. An update waits for the
+// result of the vector before; four independent strips hide this latency.
 constexpr int kTogether = 4;
 
 // |grad D| = 1 by one-sided differences, the smallest neighbour subtracted first, which keeps the
@@ -56,7 +56,7 @@ class Quadratic<true> {
     const V h = hn::Set(d, h_), h2 = hn::Mul(h, h);
     const V low = hn::Min(a, b), high = hn::Max(a, b);
     const V middle = hn::Max(low, hn::Min(high, c)), most = hn::Max(high, c);
-    // A middle neighbour farther than h takes no part, and none is the same as one at h.
+    // A middle neighbour farther than h does not count; a missing neighbour is treated as one at h.
     const V e1 = hn::Min(hn::Sub(middle, least), h);
     const V e2 = hn::Sub(most, least);
     const V between = hn::Sub(e2, e1);

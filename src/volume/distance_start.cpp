@@ -93,8 +93,8 @@ struct Planes {
   std::vector<std::uint8_t> open[3];
 };
 
-// Marks the voxels of a row that have one on the other side of the surface beside them, and says
-// whether there is any. A null row beside it is outside the grid.
+// Marks the voxels of a row that have a neighbour on the other side of the surface; returns whether
+// there is any. A null neighbouring row is outside the grid.
 bool mark_near(const std::uint8_t* open, const std::uint8_t* const beside[4], int width,
                std::uint8_t* near) {
   std::fill_n(near, width, std::uint8_t{0});

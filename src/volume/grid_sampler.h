@@ -23,8 +23,8 @@ class GridSampler {
     }
   }
 
-  // Whether a position lies within the outermost voxels' centres. An axis of one voxel has none, so
-  // half a voxel on either side counts.
+  // Whether a position lies within the outermost voxels' centres. An axis of a single voxel has no
+  // extent, so half a voxel on either side counts as inside.
   bool inside(const Vec3& p) const {
     for (int a = 0; a < 3; ++a) {
       const float u = p[a] * per_spacing_[a];

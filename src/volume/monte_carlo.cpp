@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/grid_sampler.h"
 #include "volume/volume_access.h"
@@ -12,8 +13,8 @@ namespace {
 
 constexpr int kBlock = 256;  // points of a task
 
-// Sphere tracing: |D| is how far a ray may go without meeting the surface. Swept distances are too
-// long by up to a few per cent, and near the surface a step of a fraction of a voxel goes on.
+// Sphere tracing: |D| is how far a ray may go without meeting the surface. Swept distances are up
+// to a few per cent too long; near the surface the least step is a fraction of a voxel.
 class Tracer {
  public:
   explicit Tracer(const GridView<const float>& distance)
@@ -91,10 +92,10 @@ Status check(const GridView<const float>& distance, std::span<const SurfacePoint
 template <class F>
 Status for_points(const GridView<const float>& distance, std::span<const SurfacePoint> points,
                   const MonteCarloSettings& settings, std::span<float> visibility,
-                  const VolumeRun& run, const F& value) {
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+                  const RunOptions& run, const F& value) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
   Progress progress(static_cast<std::int64_t>(blocks), run.progress);
   executor.parallel_for(static_cast<int>(blocks), [&](int block, int) {
@@ -119,7 +120,7 @@ Status for_points(const GridView<const float>& distance, std::span<const Surface
 
 Status monte_carlo_visibility(GridView<const float> distance, std::span<const SurfacePoint> points,
                               const MonteCarloSettings& settings, std::span<float> visibility,
-                              const VolumeRun& run) {
+                              const RunOptions& run) {
   if (Status s = check(distance, points, settings, visibility); !s.ok()) return s;
   const Tracer tracer(distance);
   return for_points(distance, points, settings, visibility, run,
@@ -131,7 +132,7 @@ Status monte_carlo_visibility(GridView<const float> distance, std::span<const Su
 
 Status hard_shadow(GridView<const float> distance, std::span<const SurfacePoint> points,
                    std::array<float, 3> to_light, const MonteCarloSettings& settings,
-                   std::span<float> visibility, const VolumeRun& run) {
+                   std::span<float> visibility, const RunOptions& run) {
   if (Status s = check(distance, points, settings, visibility); !s.ok()) return s;
   const float length = std::hypot(to_light[0], to_light[1], to_light[2]);
   if (!(length > 0 && std::isfinite(length))) {

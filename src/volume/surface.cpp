@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/surface_kernel.h"
 #include "volume/volume_access.h"
@@ -216,7 +217,7 @@ class Renderer {
     }
   }
 
-  // Where matter is cut: the border's normal, or against a ray that starts within.
+  // The normal where matter is cut: that of the border, or against the ray if it starts in matter.
   Vec3 cut_normal(const SurfaceRays& rays, int i, const Vec3& index) const {
     Vec3 direction;
     for (int a = 0; a < 3; ++a) direction[a] = rays.direction[a][i] * grid_.spacing[a];
@@ -278,15 +279,15 @@ class Renderer {
 
 Status render_surface(const SurfaceScene& scene, const SurfaceCamera& camera,
                       const SurfaceSettings& settings, const SurfaceShader& shader,
-                      const SurfaceOutputs& outputs, const VolumeRun& run) {
+                      const SurfaceOutputs& outputs, const RunOptions& run) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = check_scene(scene); !s.ok()) return s;
   if (Status s = check_camera(camera); !s.ok()) return s;
   int width, height;
   if (Status s = check_outputs(outputs, &width, &height); !s.ok()) return s;
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   const Renderer renderer(scene, camera, settings, shader, outputs, width, height);
   std::vector<Renderer::Scratch> scratch(static_cast<std::size_t>(executor.thread_count()));
   const int blocks = (height + kBlockRows - 1) / kBlockRows;

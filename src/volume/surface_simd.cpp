@@ -246,8 +246,8 @@ class Tracer {
     return {hn::IfThenElse(m, a.x, b.x), hn::IfThenElse(m, a.y, b.y), hn::IfThenElse(m, a.z, b.z)};
   }
 
-  // Central differences of a voxel are smooth from cell to cell. In sheets thinner than that they
-  // can turn away from a ray that came from the open: there the cell's own gradient counts.
+  // Central differences over a voxel are smooth from cell to cell. In thinner sheets they can point
+  // away from a ray that came from open space; then the gradient within the cell is used.
   HWY_INLINE Point normal_at(const Point& p, const Point& w, M hit) const {
     const D d;
     const Point direction{hn::Mul(w.x, hn::Set(d, g_.spacing[0])),

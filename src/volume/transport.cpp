@@ -6,8 +6,9 @@
 namespace obscura {
 namespace {
 
-// Voxels of the half-resolution grid from a point to its look-up: higher, narrow channels are
-// missed; lower, the surface's own voxels count too much, more so where the stencil spreads light.
+// Distance from a point to its look-up, in voxels of the half-resolution grid. If it is larger,
+// narrow channels are missed; if it is smaller, the surface's own voxels darken it too much, the
+// more so the more the stencil spreads light.
 constexpr float kLookup = 0.6f, kUpwindLookup = 0.9f;
 
 // Quadrature of an octant (Lathrop and Carlson's level-symmetric sets), one of each kind.
@@ -99,7 +100,7 @@ class PlaneScheme {
   // Writes the visibility at height i of the table to out[i * step].
   void solve(float* out, int step) {
     std::fill_n(value_, kHeights, 1.0f);
-    // Neighbours may lie lower than the voxel, so that one pass from above is not all.
+    // Neighbours may lie lower than the voxel, so that one pass from above is not enough.
     for (int pass = 0; pass < 8; ++pass) {
       float change = 0;
       for (int i = kHeights - 1; i >= 0; --i) {
@@ -153,7 +154,7 @@ TransportScheme transport_scheme(Transport transport, const std::array<float, 3>
       s.cell = 2;
       s.plane = true;
       s.lookup = kUpwindLookup;
-      // So few directions need beams as wide as this stencil makes them: narrower ones leave stars.
+      // With so few directions the wide beams of this stencil are needed: narrow beams draw stars.
       add(kS4, Stencil::kUpwind);
       break;
     case Transport::kBalanced:

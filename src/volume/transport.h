@@ -8,18 +8,20 @@
 
 namespace obscura {
 
-// What a transport is made of.
+// The parts of a transport scheme.
 struct TransportScheme {
   int cell = 1;        // voxels of the volume along a side of a voxel of its grid
-  bool plane = false;  // visibilities are divided by those of the plane with the point's normal
+  bool plane = false;  // visibilities are divided by those above a plane with the point's normal
+                       // (PlaneTable)
   float lookup = 0;    // voxels of its grid along the normal from the point to the look-up
   std::vector<SweepDirection> directions{};  // of the octant from (+, +, +)
 };
 // `spacing` is the volume's.
 TransportScheme transport_scheme(Transport transport, const std::array<float, 3>& spacing);
 
-// Visibility that a scheme itself gives above an unoccluded plane, over the plane's normal and the
-// height above it: the scheme in one dimension. Tabulated on the octahedron of normals.
+// Visibility that a scheme gives above an unoccluded plane, for every normal of the plane and
+// height above it. It depends on the height only, so that the scheme is solved in one dimension.
+// Normals are tabulated on an octahedral map.
 class PlaneTable {
  public:
   static constexpr int kHeights = 25;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/range_kernel.h"
 
@@ -77,11 +78,11 @@ void volume_row(const VolumeView& volume, int y, int z, float* values) {
   }
 }
 
-Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRun& run) {
+Status volume_range(const VolumeView& volume, VolumeRange* range, const RunOptions& run) {
   if (Status s = validate(volume); !s.ok()) return s;
-  std::unique_ptr<Executor> own;
-  if (!run.executor) own = make_executor();
-  Executor& executor = run.executor ? *run.executor : *own;
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
   std::vector<PlaneRange> planes(static_cast<std::size_t>(volume.size[2]));
   std::vector<std::vector<float>> rows(static_cast<std::size_t>(executor.thread_count()));
   for (auto& row : rows) row.resize(static_cast<std::size_t>(volume.size[0]));
@@ -100,7 +101,7 @@ Status volume_range(const VolumeView& volume, VolumeRange* range, const VolumeRu
       add_row_to_range(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
     }
   });
-  // Plane after plane, whatever the threads.
+  // Planes are added in order, so that the result does not depend on the threads.
   PlaneRange all;
   for (const PlaneRange& plane : planes) {
     all.min = std::min(all.min, plane.min);

@@ -8,7 +8,7 @@ namespace obscura {
 // Strides in samples, with the dense ones filled in.
 std::array<std::ptrdiff_t, 3> strides_of(const VolumeView& volume);
 
-// Sizes, spacing and pointer of what the caller gave, by the name that the message should use.
+// Checks the sizes, spacing and pointer that the caller gave; messages use the given name.
 Status validate(const VolumeView& volume);
 Status validate_grid(const char* name, const void* data, const std::array<int, 3>& size,
                      const std::array<float, 3>& spacing);

@@ -31,7 +31,7 @@ TEST_F(BackendTest, VulkanGivesWhatTheProcessorGives) {
   }
   EXPECT_LT(sum / cpu.channels[0].values.size(), 0.001);
   EXPECT_EQ(run("info --devices", kDriversLeak).code, 0);
-  // Without hardware, and for methods that do not run there, auto is the processor.
+  // Without a GPU, and for methods that do not run on it, auto uses the CPU.
   EXPECT_EQ(run("ao scene:cornell --size 16x12 --backend auto -o a.pfm", kDriversLeak).code, 0);
 }
 

@@ -1,4 +1,4 @@
-// The command as a user meets it: what it writes, and what it says to mistakes.
+// The command as a user runs it: its results, and its messages for mistakes.
 #include <cmath>
 #include <cstring>
 #include <vector>

@@ -31,7 +31,7 @@ TEST_F(LightCommandTest, WritesRadiance) {
   }
 }
 
-// Uniform light, no falloff: what is lit is visibility, whatever the technique.
+// With uniform light and no falloff the lit picture equals visibility, for every technique.
 TEST_F(LightCommandTest, UniformSkyGivesVisibility) {
   ASSERT_EQ(run("ao scene:hall --size 32x18 --rays 16 --method geometric -o v.pfm").code, 0);
   tools::Image visibility, lit;
@@ -48,7 +48,7 @@ TEST_F(LightCommandTest, UniformSkyGivesVisibility) {
   }
 }
 
-// Open surfaces under uniform light show it, however it is sampled.
+// Open surfaces under uniform light have its radiance, for every kind of sampling.
 TEST_F(LightCommandTest, ComparatorsLightThePicture) {
   for (const char* how : {"samples --method hemisphere --samples 16", "samples --method ray-traced",
                           "importance --method hemisphere --samples 64"}) {

@@ -10,7 +10,7 @@ namespace {
 
 using VulkanExample = VulkanTest;
 
-// examples/vulkan_headless.cpp gives what the processor gives for the settings it names.
+// examples/vulkan_headless.cpp gives the same result as the CPU with the same settings.
 TEST_F(VulkanExample, GivesWhatTheProcessorGives) {
   constexpr int kWidth = 96, kHeight = 64;
   const Camera camera = Camera::perspective(1, kWidth, kHeight);

@@ -112,7 +112,7 @@ TEST_F(VulkanFarField, MatterOfAThicknessAgrees) {
   }
 }
 
-// Backs of every sort: before their fronts, behind, and none.
+// Back depths of all kinds: before the front, behind it, and missing.
 TEST_F(VulkanFarField, BackDepthAgrees) {
   for (DepthKind kind : {DepthKind::kLinear, DepthKind::kNdcReversed}) {
     synthetic::Input in = synthetic::blocks(75, 56, Camera::perspective(1, 75, 56), 4);
@@ -151,7 +151,7 @@ FarFieldSettings shared_work(bool separable, bool blur, int line_step) {
   return s;
 }
 
-// Sections 10 and 11.1.
+// Separable evaluation and jitter (Timonen 2013, sections 10 and 11.1).
 TEST_F(VulkanFarField, SharedWorkAgrees) {
   synthetic::Input in = synthetic::blocks(58, 41, Camera::perspective(1, 58, 41), 11);
   in.guard_band = GuardBand::symmetric(2, 1);
@@ -164,8 +164,8 @@ TEST_F(VulkanFarField, SharedWorkAgrees) {
   }
 }
 
-// Where a difference lies at the blur's threshold rounding decides, in two pixels at a time: of a
-// large image it is a small share.
+// At the thresholds of the blur rounding decides, always for two pixels at a time. In a large image
+// they are a small share.
 TEST_F(VulkanFarField, SelectiveBlurAgrees) {
   synthetic::Input in = synthetic::blocks(125, 90, Camera::perspective(1, 125, 90), 11);
   in.guard_band = GuardBand::symmetric(2, 1);
@@ -186,8 +186,8 @@ TEST_F(VulkanFarField, SharedWorkAgreesForParallelViews) {
   expect_same(in.field(), s, "separable, far field alone");
 }
 
-// What a temporal filter lives on: frames in which each pixel is each cell of 3x3 once know
-// together more than one.
+// A temporal filter needs this: nine frames, in which each pixel is each cell of 3x3 once, have a
+// smaller error than one.
 TEST_F(VulkanFarField, FramesMoveWhoDoesWhat) {
   const int w = 60, h = 46;
   const std::size_t pixels = std::size_t{60} * 46;

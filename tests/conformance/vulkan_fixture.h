@@ -15,8 +15,8 @@
 
 namespace obscura {
 
-// Vulkan against the processor, with the validation layers on. A missing driver is a failure: the
-// packages that the tests install bring a software one.
+// Compares Vulkan with the CPU, with the validation layers on. A missing driver is a failure: the
+// tests' packages include a software driver.
 class VulkanTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -41,12 +41,12 @@ class VulkanTest : public ::testing::Test {
     EXPECT_GE(double(close), 0.999 * cpu.size()) << what;
   }
 
-  // Of every output, and no word from the layers. Directions are compared where their length says
-  // something: at least 0.02 of the sphere is seen.
+  // Compares every output, and expects no message from the layers. Directions are compared where at
+  // least 0.02 of the sphere is visible, as shorter ones have no reliable direction.
   static void expect_same(const DepthField& field, const MethodSettings& settings,
                           const std::string& what, bool directions = false,
                           const tools::HeadlessFrame& frame = {}) {
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     std::vector<float> images[2][5];
     Outputs outputs[2];
     for (int i = 0; i < 2; ++i) {
@@ -79,9 +79,9 @@ class VulkanTest : public ::testing::Test {
     for (const std::string& message : vulkan_->messages()) ADD_FAILURE() << what << ": " << message;
   }
 
-  // What is random per pixel moves with the frame.
+  // Random patterns change with the frame.
   static void expect_frames_differ(const DepthField& field, const MethodSettings& settings) {
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     std::vector<float> frames[2];
     for (std::uint32_t i = 0; i < 2; ++i) {
       frames[i].resize(std::size_t(w) * h);

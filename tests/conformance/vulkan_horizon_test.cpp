@@ -78,7 +78,7 @@ TEST_F(VulkanHorizon, OddSizesGuardBandsAndParallelViews) {
   }
 }
 
-// A radius without end: the blur keeps apart what a share of the farthest depth lies between.
+// With an infinite radius the blur separates surfaces by a share of the farthest depth.
 TEST_F(VulkanHorizon, TheFarthestDepthBoundsTheBlur) {
   const synthetic::Input in = scene(60, 44, 4);
   HorizonSettings s = horizon();
@@ -95,8 +95,8 @@ TEST_F(VulkanHorizon, EveryFormat) {
   }
 }
 
-// Frame 5 moves a pattern of 4 x 4 by (5, 1): what it gives of a view that has moved by as much, in
-// parallel rays, is what frame 0 gave.
+// Frame 5 moves a pattern of 4 x 4 by (5, 1). An orthographic view that is moved by as much then
+// gives the result of frame 0.
 TEST_F(VulkanHorizon, FramesMoveThePattern) {
   const int w = 60, h = 44, dx = 5, dy = 1, margin = 8;
   const synthetic::Input in = scene(w, h, 9, true);

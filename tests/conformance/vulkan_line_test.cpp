@@ -89,7 +89,7 @@ TEST_F(VulkanLine, GivenNormalsAndEveryKindOfDepth) {
   }
 }
 
-// Sizes around those of a tile; the blur knows nothing of what the guard band hides.
+// Sizes around that of a tile; the blur does not read results of the guard band.
 TEST_F(VulkanLine, BlurAgrees) {
   for (const auto& [w, h] : {std::pair{1, 1}, {5, 40}, {33, 25}, {97, 75}}) {
     for (bool orthographic : {false, true}) {
@@ -127,14 +127,15 @@ TEST_F(VulkanLine, EveryFormatOfVisibility) {
   }
 }
 
-// What a temporal filter lives on: 16 frames together know more than one.
+// A temporal filter needs this: the mean of 16 frames has a smaller error than one frame.
 TEST_F(VulkanLine, FramesTakeDifferentPatterns) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 7);
   LineSettings s = line(1);
   s.samples = 5;
   const std::size_t pixels = std::size_t{64} * 48;
   std::vector<float> converged(pixels), v(pixels), mean(pixels, 0.0f);
-  // What the pattern of five gives turned at random; more patterns are another integral.
+  // The mean over random rotations of the pattern of five; another pattern would give another
+  // integral.
   LineSettings many = s;
   for (; many.seed <= 64; ++many.seed) {
     ASSERT_TRUE(compute(in.field(), many, {.visibility = {v.data(), 64, 48}}).ok());
@@ -168,6 +169,27 @@ TEST_F(VulkanLine, WhatCannotRunIsRefused) {
   s = line(1);
   s.dual.second_radius = -1.0f;
   EXPECT_FALSE(vulkan_->run(in.field(), s, {.visibility = view}).ok());
+}
+
+// Without a near plane NDC depth would be background everywhere.
+TEST_F(VulkanLine, AViewThatCannotBeIsRefusedAsOnTheProcessor) {
+  const synthetic::Input in = synthetic::blocks(16, 16, Camera::perspective(1, 16, 16), 1);
+  std::vector<float> out(256, -1.0f);
+  const Outputs outputs{.visibility = {out.data(), 16, 16}};
+  DepthField no_near = in.field(), far_before_near = in.field(), no_scale = in.field();
+  no_near.depth_kind = DepthKind::kNdcReversed;
+  far_before_near.depth_kind = DepthKind::kNdc;
+  far_before_near.near_plane = 2;
+  far_before_near.far_plane = 1;
+  no_scale.camera.scale_x = 0;
+  for (const DepthField& field : {no_near, far_before_near, no_scale}) {
+    const Status gpu = vulkan_->run(field, line(1), outputs);
+    EXPECT_FALSE(gpu.ok());
+    EXPECT_EQ(gpu.message(), compute(field, line(1), outputs).message());
+  }
+  EXPECT_EQ(out, std::vector<float>(256, -1.0f));
+  const Status after = vulkan_->run(in.field(), line(1), outputs);
+  EXPECT_TRUE(after.ok()) << after.message();
 }
 
 }  // namespace

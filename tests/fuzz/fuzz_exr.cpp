@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int pass = 0; pass < 2; ++pass) {
     if (tools::load_depth_input(file.path(), options, &input).ok()) {
       const std::size_t pixels = static_cast<std::size_t>(input.width) * input.height;
-      if (input.depth.size() != pixels || input.field().visible_width() < 1) std::abort();
+      if (input.depth.size() != pixels || input.field().visible().width < 1) std::abort();
       for (const auto* v : {&input.normal_x, &input.normal_y, &input.normal_z, &input.back_depth}) {
         if (!v->empty() && v->size() != pixels) std::abort();
       }

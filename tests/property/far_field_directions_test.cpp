@@ -48,7 +48,7 @@ struct Result {
 };
 
 Result run(const DepthField& field, const MethodSettings& settings) {
-  Result r{field.visible_width(), field.visible_height(), {}};
+  Result r{field.visible().width, field.visible().height, {}};
   for (auto& p : r.planes) p.assign(static_cast<std::size_t>(r.width) * r.height, -9.0f);
   const Status s = compute(field, settings, r.outputs());
   EXPECT_TRUE(s.ok()) << s.message();
@@ -56,9 +56,9 @@ Result run(const DepthField& field, const MethodSettings& settings) {
 }
 
 std::vector<float> visibility(const DepthField& field, const FarFieldSettings& settings) {
-  std::vector<float> v(static_cast<std::size_t>(field.visible_width()) * field.visible_height());
+  std::vector<float> v(static_cast<std::size_t>(field.visible().width) * field.visible().height);
   const Status s = compute(
-      field, settings, {.visibility = {v.data(), field.visible_width(), field.visible_height()}});
+      field, settings, {.visibility = {v.data(), field.visible().width, field.visible().height}});
   EXPECT_TRUE(s.ok()) << s.message();
   return v;
 }
@@ -101,7 +101,7 @@ TEST(FarFieldDirections, UniformIntegralCarriesTheVisibility) {
           EXPECT_GE(r.planes[Result::kCone][i], 0);
           EXPECT_LE(r.planes[Result::kCone][i], kHalfPi + 1e-4);
         }
-        // Finite matter is counted in sectors, whose directions are their piece's.
+        // Finite occluders are counted in sectors; a sector has the mean direction of its piece.
         EXPECT_LT(mean / count, occluder.kind == OccluderKind::kSolid ? 1e-4 : 2e-2);
       }
     }
@@ -155,8 +155,8 @@ TEST(FarFieldDirections, AgreeWithTracedOnes) {
   }
 }
 
-// Sharing directions among 3x3 pixels, turning segments and leaving out lines change the mean
-// little and nothing where all is open.
+// Separable evaluation, jitter and a larger line step change the mean little, and nothing where all
+// is open.
 TEST(FarFieldSharing, StaysNearTheFullEvaluation) {
   const synthetic::Input in = scene();
   struct Variant {
@@ -207,7 +207,7 @@ TEST(FarFieldSharing, TinyImagesAndWrongSettingsAreAnswered) {
     FarFieldSettings s;
     change(s);
     Estimator e;
-    return std::string(Estimator::create(s, 8, 8, 1, &e).message());
+    return std::string(Estimator::create(s, 8, 8, &e).message());
   };
   EXPECT_NE(message([](auto& s) { s.separable = 2; }).find("must be 1 or 3"), std::string::npos);
   EXPECT_NE(message([](auto& s) { s.separable = 3; }).find("multiple of 9"), std::string::npos);

@@ -20,13 +20,12 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 
 std::vector<float> visibility(const DepthField& field, const FarFieldSettings& settings,
                               int threads = 1) {
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> result(static_cast<std::size_t>(w) * h, -1.0f);
   Estimator estimator;
-  Status s =
-      Estimator::create(settings, field.depth.width, field.depth.height, threads, &estimator);
+  Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);
   EXPECT_TRUE(s.ok()) << s.message();
-  s = estimator.run(field, {.visibility = {result.data(), w, h}});
+  s = estimator.run(field, {.visibility = {result.data(), w, h}}, {.threads = threads});
   EXPECT_TRUE(s.ok()) << s.message();
   return result;
 }
@@ -45,8 +44,9 @@ bool all_in_range(const std::vector<float>& v) {
   return true;
 }
 
-// The figures of an independent prototype and tracer are the bars (papers' notes, section 2).
-// Sanitizers would take minutes for what the release build measures.
+// Regression thresholds: the figures of an independent prototype and ray tracer (section 2 of the
+// notes on Timonen 2013).
+// Not with sanitizers, where it would take minutes.
 TEST(FarField, MeetsTheErrorBarsOnTheDepthImages) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "measured by builds without sanitizers";
@@ -160,9 +160,9 @@ TEST(FarField, LightPassesBehindThinMatter) {
   EXPECT_GT(given, 0.85f);
 }
 
-// Posts of a few pixels before a thick wall and before the sky: wall and post do not touch,
-// although the wall is thicker than the gap, and a post's rounded sides do not stand in each
-// other's way.
+// Posts of a few pixels in front of a thick wall and of the sky. Wall and post must not be joined,
+// although the wall is thicker than the gap, and the rounded sides of a post must not occlude each
+// other.
 TEST(FarField, FiniteMatterAgreesWithRays) {
   constexpr int kWidth = 96, kHeight = 72;
   synthetic::Input in =
@@ -260,7 +260,7 @@ TEST(FarField, AllBackgroundIsOpen) {
   for (float v : visibility(in.field(), quick())) EXPECT_EQ(v, 1);
 }
 
-// A tower far before a wall-less sky: its neighbourhood has no halo.
+// A tower in front of the sky: there is no halo beside it.
 // Also of work that pixels share: a group has surfaces only.
 TEST(FarField, BackgroundBesideSurfacesIsOpen) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 3);
@@ -308,7 +308,7 @@ TEST(FarField, EveryFalloffAndEveryWrongSettingIsAnswered) {
     FarFieldSettings s;
     change(s);
     Estimator e;
-    return !Estimator::create(s, 8, 8, 1, &e).ok();
+    return !Estimator::create(s, 8, 8, &e).ok();
   };
   EXPECT_TRUE(refused([](auto& s) { s.directions = 3; }));
   EXPECT_TRUE(refused([](auto& s) { s.segments = 0; }));

@@ -14,7 +14,7 @@ struct Result {
   std::vector<float> visibility, bent[3], cone;
 };
 Result run(const DepthField& field, const MethodSettings& settings, bool directions) {
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   Result r;
   auto make = [&](std::vector<float>& v) -> ImageView<float> {
     v.assign(std::size_t(w) * h, -9.0f);
@@ -37,8 +37,8 @@ HorizonSettings horizon(Resolution resolution) {
   return s;
 }
 
-// What the method sees, by another way: an image of every second pixel and the camera whose pixel
-// centres those are.
+// The image that the method gets, made in another way: every second pixel, and a camera with these
+// pixel centres.
 TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
   Random random(3);
   for (int i = 0; i < 8; ++i) {
@@ -54,9 +54,9 @@ TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
     // The centre of the first seen pixel, left + 1/2, is at 1/2.
     every.camera.center_u = (in.camera.center_u - left - 0.5f) / 2 + 0.5f;
     every.camera.center_v = (in.camera.center_v - top - 0.5f) / 2 + 0.5f;
-    every.guard_band.right = half_w - (field.visible_width() + 1) / 2;
-    every.guard_band.bottom = half_h - (field.visible_height() + 1) / 2;
-    const int vw = field.visible_width(), vh = field.visible_height();
+    every.guard_band.right = half_w - (field.visible().width + 1) / 2;
+    every.guard_band.bottom = half_h - (field.visible().height + 1) / 2;
+    const int vw = field.visible().width, vh = field.visible().height;
     std::array<std::vector<float>, 3> n;
     for (auto& axis : n) axis.assign(std::size_t(vw) * vh, 0.0f);
     ASSERT_TRUE(
@@ -74,8 +74,8 @@ TEST(HalfResolution, TheSeenPixelsAreThoseOfAnImageOfEverySecond) {
     }
     const Result half = run(field, horizon(Resolution::kHalf), true);
     const Result expected = run(every.field(), horizon(Resolution::kFull), true);
-    const int ew = every.visible_width();
-    for (int y = 0; y < every.visible_height(); ++y) {
+    const int ew = every.visible().width;
+    for (int y = 0; y < every.visible().height; ++y) {
       for (int x = 0; x < ew; ++x) {
         const std::size_t a = std::size_t(2 * y) * vw + 2 * x, b = std::size_t(y) * ew + x;
         EXPECT_NEAR(half.visibility[a], expected.visibility[b], 2e-3) << x << " " << y;
@@ -100,7 +100,8 @@ TEST(HalfResolution, PlanesStayOpenAndTheirBentNormalsAreTheNormal) {
   }
 }
 
-// A wall with a board in front of it: what is between two seen pixels takes the side that it is on.
+// A wall with a board in front of it: a pixel between two computed ones takes the value of its own
+// surface.
 TEST(HalfResolution, NothingCrossesAnEdge) {
   const int w = 60, h = 40;
   synthetic::Input in = synthetic::plane(w, h, Camera::perspective(1, w, h), 0, 0, 1, 6);
@@ -112,7 +113,7 @@ TEST(HalfResolution, NothingCrossesAnEdge) {
   s.interleave = 1;
   const Result r = run(in.field(), s, false);
   for (int y = 4; y < h - 4; ++y) {
-    // Seen: 28, 30 on the board and 32, 34 on the wall, which the board darkens.
+    // Computed pixels: 28, 30 on the board and 32, 34 on the wall, which the board darkens.
     const float* row = r.visibility.data() + std::size_t(y) * w;
     EXPECT_GT(row[30], row[32] + 0.1f);
     EXPECT_NEAR(row[29], 0.5f * (row[28] + row[30]), 1e-5f);
@@ -133,7 +134,7 @@ TEST(HalfResolution, WhatNoSeenPixelLiesBesideIsOpen) {
   EXPECT_NEAR(r.cone[3 * w + 5], 1.5707963f, 1e-6f);
 }
 
-// Every method, odd sizes and guard bands: near what the whole image gives.
+// Every method, odd sizes and guard bands: close to the result at full resolution.
 TEST(HalfResolution, EveryMethodIsNearItself) {
   for (const auto& [w, h] : {std::pair{1, 1}, {2, 3}, {97, 64}}) {
     for (bool orthographic : {false, true}) {

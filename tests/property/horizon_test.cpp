@@ -21,7 +21,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 std::vector<float> visibility(const synthetic::Input& in, const MethodSettings& settings,
                               int threads = 0) {
   const DepthField field = in.field();
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> v(static_cast<std::size_t>(w) * h, -1.0f);
   Outputs outputs;
   outputs.visibility = {v.data(), w, h};
@@ -131,8 +131,8 @@ TEST(Horizon, SlicesAgreeWithRaysThroughTheDepthField) {
   }
 }
 
-// A plate far in front of a wall, farther than the radius: the published method drops it, the
-// solid depth field hangs its matter through the sphere.
+// A plate in front of a wall, farther away than the radius. The published method ignores it; a
+// solid depth image fills the sphere behind it with matter.
 TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
   synthetic::Input in =
       synthetic::plane(160, 120, Camera::perspective(1.0f, 160, 120), 0, 0, 1, 10);
@@ -151,7 +151,7 @@ TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
   EXPECT_NEAR(visibility(in, s)[beside], 1, 1e-3);
 }
 
-// Down to what single texels in place of interpolated ones cost.
+// The difference is the cost of single texels instead of interpolated ones.
 TEST(Horizon, MoreSamplesComeCloserToTheTruth) {
   const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 8);
   ReferenceSettings truth;
@@ -330,7 +330,7 @@ TEST(Horizon, RefusesWrongSettings) {
     HorizonSettings s;
     change(s);
     Estimator e;
-    return !Estimator::create(s, 8, 8, 1, &e).ok();
+    return !Estimator::create(s, 8, 8, &e).ok();
   };
   EXPECT_FALSE(refused([](auto&) {}));
   EXPECT_TRUE(refused([](auto& s) { s.directions = 1; }));

@@ -48,10 +48,10 @@ TEST(Mipmap, RefusesWrongSettings) {
   Estimator e;
   MipmapSettings s;
   s.directions = 3;
-  EXPECT_FALSE(Estimator::create(s, 8, 8, 1, &e).ok());
+  EXPECT_FALSE(Estimator::create(s, 8, 8, &e).ok());
   s = {};
   s.step_factor = 1;
-  EXPECT_FALSE(Estimator::create(s, 8, 8, 1, &e).ok());
+  EXPECT_FALSE(Estimator::create(s, 8, 8, &e).ok());
 }
 
 }  // namespace

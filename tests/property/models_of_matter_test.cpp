@@ -8,8 +8,8 @@
 #include "scene/scenes/mesh_view.h"
 #include "scene/truth/geometric.h"
 
-// Two truths that share no code beyond their inputs must agree where the depth field's model of
-// matter is close to the world, and differ more the coarser the model is.
+// Two references that share only their input must agree where the depth image's model of thickness
+// is close to the real geometry, and differ more the coarser the model is.
 
 namespace obscura {
 namespace {
@@ -111,7 +111,8 @@ TEST(ModelsOfMatter, OfTheBunny) {
   options.ground = true;
   ASSERT_TRUE(tools::load_mesh(path, options, *make_executor(), &r).ok());
   const Models models(r);
-  // A mesh with holes, thus a sheet: its back depth is that of a skin, not of the animal.
+  // A mesh with holes, so it is a sheet: its back depth is that of a thin surface, not of the whole
+  // animal.
   EXPECT_LE(models.difference(Occluder::of_layers(8)), 1);
   EXPECT_LT(models.difference(Occluder::of_layers(8)), models.difference(Occluder::solid()));
 }

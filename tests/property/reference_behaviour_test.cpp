@@ -27,7 +27,7 @@ struct Result {
   Outputs outputs;
 
   explicit Result(const DepthField& field) {
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     for (auto& v : values) v.assign(static_cast<std::size_t>(w) * h, -7);
     auto view = [&](int i) { return ImageView<float>(values[i].data(), w, h); };
     outputs.visibility = view(0);

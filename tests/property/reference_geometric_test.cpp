@@ -46,8 +46,8 @@ void look_at(const std::string& spec, View* view) {
   ASSERT_TRUE(s.ok()) << s.message();
   const tools::DepthInput& g = view->rendering.gbuffer;
   const DepthField field = g.field();
-  view->width = field.visible_width();
-  view->height = field.visible_height();
+  view->width = field.visible().width;
+  view->height = field.visible().height;
   std::vector<float> depths;
   for (int y = 0; y < view->height; ++y) {
     for (int x = 0; x < view->width; ++x) {
@@ -89,7 +89,7 @@ double error_of(const View& view, const Occluder& occluder) {
   return c.e_a;
 }
 
-// Errors (e_A, per cent) of the four models of what lies behind the first surface.
+// Errors (e_A: mean |difference|, per cent) of the four models of thickness.
 struct Errors {
   double solid = 0, thickness = 0, back_depth = 0, layers = 0;
 };

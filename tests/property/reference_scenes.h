@@ -9,8 +9,8 @@
 #include "obscura/estimator.h"
 #include "tests/property/synthetic.h"
 
-// Depth fields whose visibility can be written down, and the checker that holds the reference
-// against it.
+// Depth images whose visibility has a closed form, and a checker that compares the reference with
+// it.
 namespace obscura::reference_scenes {
 
 struct Vec {
@@ -147,7 +147,7 @@ struct Difference {
 // Traces and compares where both truth and result are known.
 inline Status compare(const Scene& scene, const ReferenceSettings& settings, Difference* result) {
   const DepthField field = scene.input.field();
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> visibility(scene.truth.size()), error(scene.truth.size());
   Outputs outputs;
   outputs.visibility = {visibility.data(), w, h};
@@ -168,7 +168,7 @@ inline Status compare(const Scene& scene, const ReferenceSettings& settings, Dif
   return {};
 }
 
-// What the closed forms ask of 4,096 rays.
+// The thresholds for closed forms with 4,096 rays.
 constexpr double kBias = 0.001, kRms = 0.005;
 inline bool agrees(const Difference& d) {
   return d.pixels > 0 && std::abs(d.bias) <= kBias && d.rms <= kRms;

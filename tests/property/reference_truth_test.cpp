@@ -54,7 +54,7 @@ TEST(ReferenceTruth, AgreesWithAnIndependentTracer) {
     DepthField field;
     field.depth = {depth.values.data(), depth.width, depth.height};
     field.guard_band = GuardBand::symmetric(64, 36);
-    const int w = field.visible_width(), h = field.visible_height();
+    const int w = field.visible().width, h = field.visible().height;
     field.camera =
         Camera::perspective_sensor(311.769f, static_cast<float>(h), w, h, field.guard_band);
     ReferenceSettings settings;

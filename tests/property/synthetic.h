@@ -28,8 +28,7 @@ struct Input {
     }
     return f;
   }
-  int visible_width() const { return field().visible_width(); }
-  int visible_height() const { return field().visible_height(); }
+  Extent visible() const { return field().visible(); }
 };
 
 // The plane n.P = n.(0, 0, -distance) (n unit, n.z > 0) seen by a camera. Rays that miss it are

@@ -58,7 +58,7 @@ TEST(VolumeIntegral, ThirtyTwoLinesAgreeWithinOnePerCent) {
       s.falloff.radius = static_cast<float>(share * input.scene_size);
       s.samples = 32;
       s.blur = false;
-      const int width = field.visible_width(), height = field.visible_height();
+      const int width = field.visible().width, height = field.visible().height;
       std::vector<float> v(static_cast<std::size_t>(width) * height);
       ASSERT_TRUE(compute(field, s, {.visibility = {v.data(), width, height}}).ok());
       double lines = 0, truth = 0;

@@ -88,15 +88,15 @@ Falloff& falloff_of(MethodSettings* settings) {
 
 std::vector<float> visibility(const synthetic::Input& in, const MethodSettings& settings,
                               int threads = 1, NormalUse normals = NormalUse::kAuto) {
-  std::vector<float> result(static_cast<std::size_t>(in.visible_width()) * in.visible_height(),
+  std::vector<float> result(static_cast<std::size_t>(in.visible().width) * in.visible().height,
                             -1.0f);
   Estimator estimator;
-  Status status = Estimator::create(settings, in.width, in.height, threads, &estimator);
+  Status status = Estimator::create(settings, in.width, in.height, &estimator);
   EXPECT_TRUE(status.ok()) << status.message();
   DepthField field = in.field();
   field.normal_use = normals;
-  const ImageView<float> out(result.data(), in.visible_width(), in.visible_height());
-  status = estimator.run(field, {.visibility = out});
+  const ImageView<float> out(result.data(), in.visible().width, in.visible().height);
+  status = estimator.run(field, {.visibility = out}, {.threads = threads});
   EXPECT_TRUE(status.ok()) << status.message();
   return result;
 }
@@ -114,12 +114,12 @@ TEST(Volumetric, TiltedPlanesAreOpen) {
       if (i % 3 == 0) in.normals.clear();
       if (i % 4 == 1) in.guard_band = {9, 3, 5, 7};
       const std::vector<float> v = visibility(in, m.settings);
-      // Not where the sphere reaches behind the camera, nor where a float's grain is a hundredth of
-      // the sphere.
+      // Not where the sphere reaches behind the camera, and not where float precision is a
+      // hundredth of the sphere.
       double worst = 0;
       for (std::size_t k = 0; k < v.size(); ++k) {
-        const std::size_t x = k % in.visible_width() + in.guard_band.left;
-        const std::size_t y = k / in.visible_width() + in.guard_band.top;
+        const std::size_t x = k % in.visible().width + in.guard_band.left;
+        const std::size_t y = k / in.visible().width + in.guard_band.top;
         const float z = in.depth[y * width + x];
         if (z > 0.5f && z < 1000) worst = std::max(worst, std::abs(1.0 - v[k]));
       }
@@ -206,7 +206,7 @@ TEST(Volumetric, WrongRadiusIsRefused) {
     for (const float radius : {0.0f, -1.0f, std::nanf(""), kInf, -kInf}) {
       falloff_of(&m.settings).radius = radius;
       Estimator estimator;
-      const Status s = Estimator::create(m.settings, 10, 10, 1, &estimator);
+      const Status s = Estimator::create(m.settings, 10, 10, &estimator);
       EXPECT_EQ(s.code(), StatusCode::kInvalidArgument) << m.name;
       EXPECT_NE(s.message().find("radius is"), std::string::npos) << s.message();
     }
@@ -222,7 +222,7 @@ TEST(Volumetric, OtherFalloffsAreRefused) {
       f.table = {1, 0};
       f.function = [](float) { return 1.0f; };
       Estimator estimator;
-      const Status s = Estimator::create(m.settings, 10, 10, 1, &estimator);
+      const Status s = Estimator::create(m.settings, 10, 10, &estimator);
       EXPECT_EQ(s.code(), StatusCode::kInvalidArgument) << m.name;
       EXPECT_NE(s.message().find("constant or quadratic"), std::string::npos) << s.message();
     }
@@ -235,14 +235,14 @@ TEST(Volumetric, OtherOccludersAreRefused) {
                               Occluder::of_thickness(-1), Occluder::of_thickness(kInf)}) {
       set_occluder(o, &m.settings);
       Estimator estimator;
-      const Status s = Estimator::create(m.settings, 10, 10, 1, &estimator);
+      const Status s = Estimator::create(m.settings, 10, 10, &estimator);
       EXPECT_EQ(s.code(), StatusCode::kInvalidArgument) << m.name;
       EXPECT_NE(s.message().find("occluder"), std::string::npos) << s.message();
     }
   }
 }
 
-// What is thin occludes no more than what is solid, and what is thicker than the sphere as much.
+// A thin object occludes no more than a solid one, and an object thicker than the sphere as much.
 TEST(Volumetric, ThicknessLiesBetweenOpenAndSolid) {
   const synthetic::Input in = synthetic::blocks(80, 60, Camera::perspective(0.8f, 80, 60), 7);
   for (Named m : methods()) {
@@ -281,7 +281,7 @@ TEST(Volumetric, StridedOutput) {
 TEST(Volumetric, MistakesAreNamed) {
   auto message = [](const MethodSettings& settings) {
     Estimator estimator;
-    const Status s = Estimator::create(settings, 10, 10, 1, &estimator);
+    const Status s = Estimator::create(settings, 10, 10, &estimator);
     EXPECT_EQ(s.code(), StatusCode::kInvalidArgument);
     return s.message();
   };

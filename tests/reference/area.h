@@ -15,8 +15,8 @@
 
 namespace obscura::reference {
 
-// Area sampling once more, pixel by pixel in double precision and along another way: no pyramid
-// but sums over all texels under a kernel, of the depth image and of the tangent plane alike, and
+// Area sampling, implemented independently: pixel by pixel in double precision, with sums over all
+// texels under a kernel instead of a pyramid, for the depth image and for the tangent plane, and by
 // quadrature of the visibility that falls from 1 at mu - sigma to 0 at mu + sigma.
 class Area {
  public:

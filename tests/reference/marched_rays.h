@@ -9,8 +9,8 @@
 #include "obscura/occluder.h"
 #include "view/geometry.h"
 
-// Rays against a depth field once more, along another way than the tracer's: in eye space, in
-// double precision, in steps of a hundredth of a pixel. What lies between two steps is missed.
+// Rays against a depth image, implemented independently of the tracer: in eye space, in double
+// precision, in steps of a hundredth of a pixel. Objects between two steps are missed.
 namespace obscura::reference {
 
 class MarchedRays {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-// Sweeps as one would write them first, in floats on cubes with a border, to hold speeds against.
+// Sweeps as plain loops in floats, on cubes with a border, to compare speeds with.
 namespace obscura::reference {
 
 inline float eikonal_cube(float a, float b, float c) {

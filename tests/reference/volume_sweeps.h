@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-// Plain loops for what src/volume does with vectors: written from the equations alone.
+// Plain loops for what src/volume does with vectors, written from the equations only.
 namespace obscura::reference {
 
 struct Grid {

@@ -13,8 +13,8 @@
 #include "obscura/point.h"
 #include "view/geometry.h"
 
-// Volumetric obscurance once more, pixel by pixel in double precision and along another way: the
-// tangent plane by intersecting rays, rho by quadrature. What the kernels are held against.
+// Volumetric obscurance, implemented independently: pixel by pixel in double precision, the tangent
+// plane by intersecting rays, rho by quadrature. The kernels are compared with it.
 namespace obscura::reference {
 
 // Integral of rho along a line at distance `lateral` from the centre, from lo to hi (unit sphere).

@@ -5,25 +5,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "filters/edge_leaf.h"
-#define PASS_CONSTANTS float edge;
-#include "gpu/view.glsl"
-
-const int kThreads = 128;
-layout(local_size_x = 128) in;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Values { float values[]; };
-#define VISIBILITY_BINDING 2
+#include "filters/bilateral/bilateral_io.h"
 #include "gpu/results.glsl"
+#include "gpu/view.glsl"
 
 const int kReach = 4;
 const float kWeights[kReach + 1] = float[](70, 56, 28, 8, 1);
-const int kWidth = 32, kHeight = 24;  // of a tile
-const int kStride = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
+const int kStride = kTileWidth + 2 * kReach, kRows = kTileHeight + 2 * kReach;
 
 shared float surfaces[kRows * kStride];  // linear on planes; 0: background or outside
 shared float inputs[kRows * kStride];
-shared float blurred[kRows * kWidth];  // along rows
+shared float blurred[kRows * kTileWidth];  // along rows
 
 void load(ivec2 corner) {
   for (int i = int(gl_LocalInvocationIndex); i < kRows * kStride; i += kThreads) {
@@ -80,25 +72,25 @@ float blur_column(int i, int j) {
   for (int k = -kReach; k <= kReach; ++k) {
     if (k == 0) continue;
     const float w = tap_weight(r, i, kStride, k);
-    sum += w * (blurred[j + k * kWidth] - v0);
+    sum += w * (blurred[j + k * kTileWidth] - v0);
     weights += w;
   }
   return v0 + sum / weights;
 }
 
 void main() {
-  const ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kWidth, kHeight);
+  const ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kTileWidth, kTileHeight);
   load(corner);
   barrier();
-  for (int i = int(gl_LocalInvocationIndex); i < kRows * kWidth; i += kThreads) {
-    blurred[i] = blur_row(i / kWidth * kStride + i % kWidth + kReach);
+  for (int i = int(gl_LocalInvocationIndex); i < kRows * kTileWidth; i += kThreads) {
+    blurred[i] = blur_row(i / kTileWidth * kStride + i % kTileWidth + kReach);
   }
   barrier();
-  for (int i = int(gl_LocalInvocationIndex); i < kHeight * kWidth; i += kThreads) {
-    const ivec2 cell = ivec2(i % kWidth, i / kWidth), p = corner + cell;
+  for (int i = int(gl_LocalInvocationIndex); i < kTileHeight * kTileWidth; i += kThreads) {
+    const ivec2 cell = ivec2(i % kTileWidth, i / kTileWidth), p = corner + cell;
     if (p.x >= view.visible_width || p.y >= view.visible_height) continue;
     const int at = (cell.y + kReach) * kStride + cell.x + kReach;
     const bool surface = surfaces[at] > 0.0;
-    write_visibility(p, surface ? blur_column(at, i + kReach * kWidth) : 1.0);
+    write_visibility(p, surface ? blur_column(at, i + kReach * kTileWidth) : 1.0);
   }
 }

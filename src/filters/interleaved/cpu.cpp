@@ -4,7 +4,7 @@
 
 #include "filters/bilateral/kernel.h"
 
-namespace obscura::directional {
+namespace obscura::interleaved {
 namespace {
 
 // Pixels of a tile, whose intermediate rows stay in a second-level cache.
@@ -44,7 +44,7 @@ void InterleavedSums::close_row(int channels, int width, int y) {
 
 void InterleavedSums::resolve(const view::Geometry& g, const Resolve& how, const Outputs& o,
                               Executor& executor) {
-  const int width = g.visible_width(), height = g.visible_height();
+  const int width = g.visible().width, height = g.visible().height;
   const int across = (width + kTileWidth - 1) / kTileWidth;
   const int down = (height + kTileHeight - 1) / kTileHeight;
   if (how.interleave > 1) {
@@ -69,7 +69,7 @@ void InterleavedSums::resolve(const view::Geometry& g, const Resolve& how, const
 
 void InterleavedSums::blur_tile(const view::Geometry& g, const Resolve& how, const Outputs& o,
                                 int x, int first, int columns, int end, Tile* tile) {
-  const int height = g.visible_height(), m = how.interleave, reach = m / 2;
+  const int height = g.visible().height, m = how.interleave, reach = m / 2;
   // Taps up to half the tile of the pattern away, the outermost with half the weight: each of its
   // pixels counts the same.
   BlurRow shared;
@@ -114,7 +114,7 @@ void InterleavedSums::blur_tile(const view::Geometry& g, const Resolve& how, con
 void InterleavedSums::load_row(const view::Geometry& g, int x, int columns, int y, int to,
                                Tile* tile) {
   const int begin = std::max(0, x - kReach),
-            end = std::min(g.visible_width(), x + columns + kReach);
+            end = std::min(g.visible().width, x + columns + kReach);
   const int row_of = g.guard_band.top + y, at = g.guard_band.left + begin, shift = begin - x;
   float* surface = Tile::row(tile->surface, to);
   surface_row(g.depth.row(row_of) + at, end - begin, g.camera.orthographic, surface + shift);
@@ -184,4 +184,4 @@ void InterleavedSums::write(const view::Geometry& g, const Resolve& how, const O
   }
 }
 
-}  // namespace obscura::directional
+}  // namespace obscura::interleaved

@@ -1,76 +1,55 @@
 #include "filters/interleaved/gpu.h"
 
-#include <bit>
-
-#include "shaders/farthest.h"
 #include "shaders/interleaved.h"
+#include "view/gpu.h"
 
-namespace obscura::vulkan {
-namespace {
+namespace obscura::gpu {
 
-constexpr int kTile = 16;  // pixels a side that a group resolves
-constexpr int kFarthestGroups = 256, kFarthestSize = 128;
-
-// Depends on depth alone, which a barrier before the samples has made ready.
-int add_farthest(const Geometry& g, Program* program) {
-  const int region = program->add_region(kFarthestGroups * sizeof(float));
-  program->passes.push_back({.name = "farthest",
-                             .spirv = shaders::farthest,
-                             .constants = {},
-                             .slots = {Slot::of(g.depth), Slot::of(region)},
-                             .width = kFarthestGroups * kFarthestSize,
-                             .group_x = kFarthestSize,
-                             .group_y = 1,
-                             .overlaps = true});
-  return region;
-}
-
-}  // namespace
-
-SumRegions add_sums(const FrameShape& shape, bool open, bool directions, Program* program) {
-  const auto pixels = static_cast<VkDeviceSize>(visible_width(shape)) * visible_height(shape);
+SumRegions add_sums(const Frame& frame, bool open, bool directions, Program* program) {
   SumRegions sums;
-  if (open) sums.open = program->add_region(pixels * sizeof(float));
-  if (directions) sums.directions = program->add_region(pixels * 4 * sizeof(float));
+  if (open) sums.open = program->add_region(frame.visible_bytes());
+  if (directions) sums.directions = program->add_region(frame.visible_bytes(4));
   return sums;
 }
 
-void add_resolution(const FrameShape& shape, const Geometry& geometry, const SumRegions& sums,
-                    const Resolution& how, Program* program) {
+void add_denoising(const Frame& frame, const Geometry& geometry, const SumRegions& sums,
+                   const Denoising& how, const VisibilityTarget& target, Program* program) {
+  namespace io = interleaved_io;
   const bool open = sums.open >= 0, directions = sums.directions >= 0;
-  const bool bounded = how.longest_edge > 0 && how.interleave > 1;
-  const int reach = how.interleave / 2;
-  const int farthest = bounded ? add_farthest(geometry, program) : geometry.depth;
-  const VisibilityTarget target =
-      how.target ? *how.target : VolumetricTargets(shape, {}, false, program).first();
-  // Every binding needs something, read or not.
-  const Slot open_slot = Slot::of(open ? sums.open : sums.directions);
-  Pass pass{.name = "blur",
-            .spirv = shaders::interleaved,
-            .constants = target.constants,
-            .slots = target.slots,
-            .width = visible_width(shape),
-            .height = visible_height(shape),
-            .group_x = kTile,
-            .group_y = kTile,
-            .radius = how.edge,
-            .push = {std::bit_cast<std::uint32_t>(how.longest_edge)}};
   const bool normals = geometry.normals >= 0;
-  for (std::uint32_t constant :
-       {static_cast<std::uint32_t>(reach), std::uint32_t{how.interleave % 2 == 0},
-        (open ? 1u : 0u) + (directions ? 4u : 0u), std::uint32_t{open}, std::uint32_t{directions},
-        std::uint32_t{how.cosine_open}, std::uint32_t{how.paper_cone},
-        std::uint32_t{shape.directions == Directions::kUnsigned},
-        bounded ? std::uint32_t{kFarthestGroups} : 0u, std::uint32_t{normals}}) {
-    pass.constants.push_back(constant);
-  }
-  for (const Slot& slot :
-       {Slot::of(geometry.depth), Slot::of(normals ? geometry.normals : geometry.depth), open_slot,
-        directions ? Slot::of(sums.directions) : open_slot, Slot::of(farthest),
-        Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)}) {
-    pass.slots.push_back(slot);
-  }
-  program->passes.push_back(std::move(pass));
+  const bool bounded = how.longest_edge > 0 && how.interleave > 1;
+  // Every binding needs something, read or not.
+  const int farthest = bounded ? add_farthest(geometry, program) : geometry.depth;
+  const int open_sums = open ? sums.open : sums.directions;
+  Pass pass{.name = "blur",
+            .shader = shaders::interleaved,
+            .constants = {{io::kReach, how.interleave / 2},
+                          {io::kHalfOutermost, how.interleave % 2 == 0},
+                          {io::kChannels, (open ? 1 : 0) + (directions ? 4 : 0)},
+                          {io::kOpen, open},
+                          {io::kDirections, directions},
+                          {io::kCosineOpen, how.cosine_open},
+                          {io::kPaperCone, how.paper_cone},
+                          {io::kUnsigned, frame.shape.directions == Directions::kUnsigned},
+                          {io::kFarthest, bounded ? kFarthestCount : 0},
+                          {io::kNormals, normals}},
+            .slots = {{io::kDepthAt, geometry.depth},
+                      {io::kNormalsAt, normals ? geometry.normals : geometry.depth},
+                      {io::kOpenAt, open_sums},
+                      {io::kDirectionsAt, directions ? sums.directions : open_sums},
+                      {io::kFarthestAt, farthest},
+                      {io::kDirectionResultAt, frame.results.directions}},
+            .size = frame.visible(),
+            .radius = how.edge,
+            .push = push_words(io::Push{.longest_edge = how.longest_edge})};
+  target.apply(&pass);
+  program->add(std::move(pass));
 }
 
-}  // namespace obscura::vulkan
+void add_denoising(const Frame& frame, const Geometry& geometry, const SumRegions& sums,
+                   const Denoising& how, Program* program) {
+  // The target's region is not touched.
+  add_denoising(frame, geometry, sums, how, {frame.results.visibility, sums.any()}, program);
+}
+
+}  // namespace obscura::gpu

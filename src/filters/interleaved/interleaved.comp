@@ -6,32 +6,12 @@
 #include "math/leaf_glsl.h"
 #include "filters/edge_leaf.h"
 #include "math/slab_leaf.h"
-#define PASS_CONSTANTS float longest_edge;
+#include "filters/interleaved/interleaved_io.h"
+#include "gpu/direction_result.glsl"
 #include "gpu/view.glsl"
-#define DIRECTIONS_BINDING 7
-#include "gpu/visibility.glsl"
+#include "gpu/visibility_target.glsl"
 
-layout(local_size_x = 16, local_size_y = 8) in;
-layout(constant_id = 2) const int kReach = 2;              // 0: no blur
-layout(constant_id = 3) const bool kHalfOutermost = true;  // the outermost taps' weights
-layout(constant_id = 4) const int kChannels = 1;           // values that are blurred
-layout(constant_id = 5) const bool kOpen = true;           // open_sums holds the visibility
-layout(constant_id = 6) const bool kDirections = false;
-// The open share that goes with directions is the cosine-weighted visibility.
-layout(constant_id = 7) const bool kCosineOpen = false;
-layout(constant_id = 8) const bool kPaperCone = false;
-layout(constant_id = 9) const bool kUnsigned = false;
-layout(constant_id = 10) const int kFarthest = 0;  // entries of `farthest`; 0: edges are not bounded
-layout(constant_id = 11) const bool kNormals = true;  // else all are alike
-
-layout(binding = 2) readonly buffer Depth { float depth[]; };
-layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 4) readonly buffer Open { float open_sums[]; };
-layout(binding = 5) readonly buffer Directions { vec4 sums[]; };
-layout(binding = 6) readonly buffer Farthest { float farthest[]; };
-
-const int kTile = 16, kSide = kTile + 2 * kReach, kCells = kSide * kSide;
-const int kThreads = 128;
+const int kSide = kTile + 2 * kReach, kCells = kSide * kSide;
 shared float surface[kCells];  // linear on planes; 0: background
 shared float normal[3 * kCells];
 shared float value[kChannels * kCells];

@@ -10,9 +10,9 @@
 #include "obscura/outputs.h"
 #include "view/geometry.h"
 
-namespace obscura::directional {
+namespace obscura::interleaved {
 
-// What the sums hold (interleaved_kernel.h) and what becomes of them.
+// What the sums hold (kernel.h) and what becomes of them.
 enum class Sums {
   kUniform,            // both by uniform weights
   kUniformDirections,  // `open` by cosine weights, directions by uniform ones: since
@@ -58,6 +58,6 @@ class InterleavedSums {
   std::vector<std::unique_ptr<Tile>> tiles_;  // one per thread
 };
 
-}  // namespace obscura::directional
+}  // namespace obscura::interleaved
 
 #endif  // OBSCURA_SRC_FILTERS_INTERLEAVED_INTERLEAVED_H_

@@ -3,14 +3,14 @@
 
 #include <cstddef>
 
-namespace obscura::directional {
+namespace obscura::interleaved {
 
 inline constexpr int kMaxInterleave = 8;
 inline constexpr int kBlurTaps = kMaxInterleave / 2 + 1;  // on one side, the middle included
 
 // What a pixel's samples have in sum: the channels that are blurred. Directions are differences to
 // what the same share of all directions, occluded or not, would give, so that an open pixel's are
-// zero and its bent normal is the normal n (bent normals and cones, section 4):
+// zero and its bent normal is the normal n (Klehm et al. 2011, section 4):
 //   uniform weights  open = mean V,                        x y z = mean V w - open n/2
 //   cosine weights   open = 1/pi integral of V (n.w),      x y z = 1/pi integral of V w (n.w)
 //                                                                  - open 2/3 n
@@ -47,6 +47,6 @@ struct Finish {
 void finish_row(const Finish& finish, const float* const sums[kChannels],
                 const float* const normal[3], int width, const Results& results);
 
-}  // namespace obscura::directional
+}  // namespace obscura::interleaved
 
 #endif  // OBSCURA_SRC_FILTERS_INTERLEAVED_KERNEL_H_

@@ -22,10 +22,10 @@ namespace leaf {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using directional::BlurRow;
-using directional::Finish;
-using directional::kChannels;
-using directional::Results;
+using interleaved::BlurRow;
+using interleaved::Finish;
+using interleaved::kChannels;
+using interleaved::Results;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
@@ -176,7 +176,7 @@ HWY_EXPORT(Blur);
 HWY_EXPORT(FinishAny);
 }  // namespace
 
-namespace directional {
+namespace interleaved {
 
 void blur_row(const BlurRow& row, int width) { HWY_DYNAMIC_DISPATCH(Blur)(row, width); }
 void finish_row(const Finish& finish, const float* const sums[kChannels],
@@ -184,6 +184,6 @@ void finish_row(const Finish& finish, const float* const sums[kChannels],
   HWY_DYNAMIC_DISPATCH(FinishAny)(finish, sums, normal, width, results);
 }
 
-}  // namespace directional
+}  // namespace interleaved
 }  // namespace obscura
 #endif

@@ -27,7 +27,7 @@ HWY_INLINE M IsSurface(V s) {
   return hn::And(hn::Gt(s, hn::Zero(d)), hn::Lt(s, hn::Inf(d)));
 }
 
-HWY_INLINE V Alike(const BetweenRow& row, int x, std::ptrdiff_t step) {
+HWY_INLINE V Alike(const UpsamplingRow& row, int x, std::ptrdiff_t step) {
   const D d;
   V cosine = hn::Zero(d);
   for (const float* normal : row.normal) {
@@ -37,7 +37,7 @@ HWY_INLINE V Alike(const BetweenRow& row, int x, std::ptrdiff_t step) {
   return hn::MulAdd(square, square, hn::Set(d, kLeastAlike));
 }
 
-void Between(const BetweenRow& row, int width) {
+void Upsample(const UpsamplingRow& row, int width) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const M odd = hn::Gt(hn::Mul(hn::Iota(d, 0), hn::Set(d, 0.5f)),
@@ -89,10 +89,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace obscura {
 namespace {
-HWY_EXPORT(Between);
+HWY_EXPORT(Upsample);
 }  // namespace
 
-void between_row(const BetweenRow& row, int width) { HWY_DYNAMIC_DISPATCH(Between)(row, width); }
+void upsample_row(const UpsamplingRow& row, int width) {
+  HWY_DYNAMIC_DISPATCH(Upsample)(row, width);
+}
 
 }  // namespace obscura
 #endif

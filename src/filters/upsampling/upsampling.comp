@@ -1,22 +1,11 @@
 // Results at every second pixel of every second row become results everywhere: the pixels between are
-// filled in along surfaces, between_simd.cpp in GLSL, first along the seen rows and then between them.
+// filled in along surfaces, kernel_simd.cpp in GLSL, first along the seen rows and then between them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS float edge;
-#include "gpu/view.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool kNormals = true;
-layout(constant_id = 1) const bool kDirections = false;
-layout(constant_id = 2) const bool kUnsigned = false;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 2) readonly buffer Seen { float seen[]; };
-layout(binding = 3) readonly buffer SeenDirections { vec4 seen_directions[]; };
-#define VISIBILITY_BINDING 4
-#define DIRECTIONS_BINDING 5
+#include "filters/upsampling/upsampling_io.h"
+#include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
+#include "gpu/view.glsl"
 
 const float kLeastAlike = 1e-3;
 

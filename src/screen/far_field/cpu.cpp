@@ -3,29 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text.h"
-#include "screen/far_field/directions.h"
 #include "screen/far_field/lines.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
 #include "screen/far_field/slices.h"
 #include "screen/far_field/totals.h"
+#include "screen/method.h"
 
 namespace obscura {
-
-bool SettingText<NearStep>::parse(std::string_view text, NearStep* value) {
-  if (text == "adaptive") {
-    *value = NearStep::adaptive();
-    return true;
-  }
-  double number;
-  if (!parse_number(text, &number) || !closed(0.125, 8).contains(number)) return false;
-  *value = NearStep::of(static_cast<float>(number));
-  return true;
-}
-std::string SettingText<NearStep>::write(const NearStep& value) {
-  return value.px > 0 ? write_number(value.px, true) : "adaptive";
-}
 
 namespace far_field {
 namespace {
@@ -86,13 +71,8 @@ void list_taps(const Plane& p, const Direction& direction, const Segment& segmen
 
 class FarFieldMethod final : public Method {
  public:
-  FarFieldMethod(const FarFieldSettings& settings, math::Rho rho)
-      : settings_(settings),
-        rho_(std::move(rho)),
-        directions_(make_directions(settings)),
-        phases_(phases_of(settings)),
-        margin_(sideways_reach(directions_, settings.interval) +
-                2 * PrefixSums::kPadding * phases_) {}
+  explicit FarFieldMethod(FarFieldPlan plan)
+      : plan_(std::move(plan)), margin_(plan_.reach + 2 * PrefixSums::kPadding * phases_) {}
 
   view::Needs needs() const override {
     return {.normals = true, .back_depth = settings_.occluder.kind == OccluderKind::kBackDepth};
@@ -111,10 +91,10 @@ class FarFieldMethod final : public Method {
     const PassTimer& timer = context.timer;
     if (grouped()) timer.time("average", [&] { average_groups(g, executor, &groups_); });
     timer.time("fill", [&] { prepare(g, executor); });
-    Progress progress(static_cast<std::int64_t>(directions_.size()), context.progress);
+    Progress progress(static_cast<std::int64_t>(plan_.directions.size()), context.progress);
     const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
                                      settings_.line_step};
-    for (const Direction& direction : directions_) {
+    for (const Direction& direction : plan_.directions) {
       Plane& plane = planes_[direction.transposed];
       timer.time("scan", [&] { scan(plane, direction, scan_settings, executor, &buffer_); });
       timer.time("sum", [&] { sum(plane, direction, scan_settings, executor, &buffer_); });
@@ -205,7 +185,7 @@ class FarFieldMethod final : public Method {
       const Segment& segment = segments[i];
       SliceRow job{.plane = &p,
                    .receivers = &p.own,
-                   .rho = &rho_,
+                   .rho = &plan_.rho,
                    .sums = SliceSums::kVisibility,
                    .chord = settings_.profile == SlabProfile::kAdaptiveChord,
                    .far_alone = false,
@@ -260,10 +240,9 @@ class FarFieldMethod final : public Method {
     if (!wanted_.uniform && !wanted_.cosine) run(SliceSums::kVisibility, true, kObscurance);
   }
 
-  const FarFieldSettings settings_;
-  const math::Rho rho_;
-  const std::vector<Direction> directions_;
-  const int phases_, margin_;
+  const FarFieldPlan plan_;
+  const FarFieldSettings& settings_ = plan_.settings;
+  const int phases_ = plan_.phases, margin_;
   WantedSums wanted_;
   Plane planes_[2];
   Groups groups_;
@@ -275,68 +254,11 @@ class FarFieldMethod final : public Method {
 }  // namespace
 }  // namespace far_field
 
-namespace {
-
-FarFieldSettings with_preset(FarFieldSettings s) {
-  switch (s.preset) {
-    case FarFieldPreset::kNone:
-      break;
-    case FarFieldPreset::kFast:
-      s.directions = 8;
-      s.segments = 1;
-      s.near_step = NearStep::of(1);
-      break;
-    case FarFieldPreset::kBalanced:
-      s.directions = 16;
-      s.segments = 1;
-      s.near_step = NearStep::of(0.5f);
-      break;
-    case FarFieldPreset::kHigh:
-      s.directions = 16;
-      s.segments = 3;
-      s.near_step = NearStep::of(0.25f);
-      break;
-  }
-  return s;
-}
-
-}  // namespace
-
-Status resolve_far_field(const FarFieldSettings& given, FarFieldSettings* resolved,
-                         math::Rho* rho) {
-  const FarFieldSettings settings = with_preset(given);
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = validate(settings.falloff); !s.ok()) return s;
-  if (Status s = validate(settings.occluder); !s.ok()) return s;
-  if (settings.receiver_slope == 0) {
-    return invalid_argument("receiver_slope is 0; it must be -1 or 1");
-  }
-  const float step = settings.near_step.px;
-  if (step != 0 && !(step >= 0.125f && step <= 8)) {
-    return invalid_argument(
-        text("near_step is ", step, "; it must be in [0.125, 8], or 0 for adaptive"));
-  }
-  if (settings.separable == 2) return invalid_argument("separable is 2; it must be 1 or 3");
-  if (settings.separable == 3 && settings.directions % far_field::kCells != 0) {
-    return invalid_argument(text("directions is ", settings.directions,
-                                 "; with separable 3 it must be a multiple of 9, such as 18"));
-  }
-  if (settings.separable == 3 && settings.jitter) {
-    return invalid_argument("jitter and separable 3 exclude each other: both share out 3x3 pixels");
-  }
-  if (settings.occluder.kind == OccluderKind::kLayers) {
-    return unsupported("the far field takes the occluders solid, thickness and back-depth");
-  }
-  if (Status s = math::make_rho(settings.falloff, rho); !s.ok()) return s;
-  *resolved = settings;
-  return {};
-}
-
-Status make_far_field(const FarFieldSettings& given, std::unique_ptr<Method>* method) {
-  FarFieldSettings settings;
-  math::Rho rho;
-  if (Status s = resolve_far_field(given, &settings, &rho); !s.ok()) return s;
-  *method = std::make_unique<far_field::FarFieldMethod>(settings, std::move(rho));
+template <>
+Status make_method(const FarFieldSettings& settings, int, int, std::unique_ptr<Method>* method) {
+  FarFieldPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  *method = std::make_unique<far_field::FarFieldMethod>(std::move(plan));
   return {};
 }
 

@@ -45,7 +45,7 @@ Segment make_segment(const FarFieldSettings& s, double low, double width) {
 // Strips of one direction are all cut at the same rows; directions that cut elsewhere keep that
 // from showing. Left and right directions share their phase, so that mirrored images are treated
 // alike.
-int strip_phase(bool transposed, int sign, double angle, int interval) {
+int strip_offset(bool transposed, int sign, double angle, int interval) {
   const double down = transposed ? std::sin(angle) : sign * std::cos(angle);
   const double golden = down * 1.618033988749895 * 7 + 16;
   return static_cast<int>((golden - std::floor(golden)) * 4 * interval);
@@ -66,7 +66,7 @@ std::vector<Direction> make_directions(const FarFieldSettings& s) {
     d.sign = (d.transposed ? u : v) > 0 ? 1 : -1;
     const double angle = std::atan2(d.transposed ? v : u, std::abs(d.transposed ? u : v));
     d.slope = static_cast<float>(std::tan(angle));
-    d.phase = strip_phase(d.transposed, d.sign, angle, s.interval);
+    d.strip_offset = strip_offset(d.transposed, d.sign, angle, s.interval);
     for (int cell = 0; cell < kCells; ++cell)
       d.group = kCellOrder[cell] == k % kCells ? cell : d.group;
     d.segments.resize(s.jitter ? kCells : 1);

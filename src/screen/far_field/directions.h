@@ -26,8 +26,8 @@ struct Direction {
   bool transposed = false;
   int sign = 1;
   float slope = 0;
-  int phase = 0;  // rows by which the strips begin before the image
-  int group = 0;  // of the separable evaluation: the cell that evaluates this direction
+  int strip_offset = 0;  // rows by which the strips begin before the image
+  int group = 0;         // of the separable evaluation: the cell that evaluates this direction
   // One set of segments; where jittered, one per cell, each turned by its own angle.
   std::vector<std::vector<Segment>> segments;
 

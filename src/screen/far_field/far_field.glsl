@@ -1,5 +1,5 @@
 // The depth image in one of two orientations, as screen/far_field/plane.h has it. Before this:
-// view.transposed, view.lattice_stride, view.margin, view.directions, buffers `quads` (tables) and `kappa`.
+// view.transposed, view.lattice_stride, view.margin, view.directions, buffers `quads` (tables) and `ortho_offset`.
 #include "screen/far_field/far_field_lattice.glsl"
 
 bool is_transposed() { return view.transposed != 0; }
@@ -24,7 +24,7 @@ float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }
 
 // A direction in the tables: four quads.
 struct Direction {
-  int sign_v, group, phase, lines;
+  int sign_v, group, strip_offset, lines;
   int rows, headers, row_base;
   uvec4 strips, raw_rows;  // of levels 0 to 3
 };
@@ -33,7 +33,7 @@ Direction direction_at(int i) {
   Direction d;
   d.sign_v = int(a.x);
   d.group = int(a.y);
-  d.phase = int(a.z);
+  d.strip_offset = int(a.z);
   d.lines = int(a.w);
   d.rows = int(b.x);
   d.headers = int(b.y);

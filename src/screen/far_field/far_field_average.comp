@@ -1,15 +1,9 @@
-// Section 10's groups (totals.cpp, average_groups): which of 3x3 neighbours see a pixel's surface, and
-// their mean depth and normal.
+// Groups of 3x3 pixels (Timonen 2013, section 10; totals.cpp, average_groups): which of 3x3
+// neighbours see the pixel's surface, and their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/far_field/far_field_average_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 32, local_size_y = 4) in;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 2) writeonly buffer Groups { vec4 groups[]; };     // normal, depth
-layout(binding = 3) writeonly buffer Accepted { uint accepted[]; };  // bit 3 (dy + 1) + dx + 1
 
 const float kLeastCosine = 0.5, kDepthRatio = 0.03;
 

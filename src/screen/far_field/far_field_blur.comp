@@ -4,20 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
+#include "screen/far_field/far_field_blur_io.h"
+#include "gpu/direction_result.glsl"
+#include "gpu/results.glsl"
 #include "gpu/view.glsl"
 
-const int kWidth = 32, kHeight = 8, kReach = 2;
-layout(local_size_x = 32, local_size_y = 8) in;
-layout(constant_id = 0) const int kSums = 0;  // SliceSums
-layout(constant_id = 1) const bool kPaperCone = false;
-layout(constant_id = 2) const bool kUnsigned = false;
-
-layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 1) readonly buffer Groups { vec4 groups[]; };  // normal, depth
-layout(binding = 2) readonly buffer Totals { float totals[]; };
-#define VISIBILITY_BINDING 3
-#define DIRECTIONS_BINDING 4
-#include "gpu/results.glsl"
+const int kReach = 2;
 
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"
@@ -28,7 +20,7 @@ const int kStride = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
 shared vec2 tile[kRows * kStride];  // obscurance, depth; no depth outside
 
 void load_tile(ivec2 corner) {
-  for (int i = int(gl_LocalInvocationIndex); i < kRows * kStride; i += kWidth * kHeight) {
+  for (int i = int(gl_LocalInvocationIndex); i < kRows * kStride; i += kThreads) {
     const ivec2 p = corner + ivec2(i % kStride, i / kStride) - kReach;
     const bool inside = all(greaterThanEqual(p, ivec2(0))) && p.x < view.visible_width &&
                         p.y < view.visible_height;

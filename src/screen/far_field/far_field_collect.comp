@@ -4,22 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#include "gpu/view.glsl"
-
-const int kTile = 32;
-layout(local_size_x = 32, local_size_y = 8) in;
-layout(constant_id = 0) const int kSums = 0;  // SliceSums
-layout(constant_id = 1) const bool kPaperCone = false;
-layout(constant_id = 2) const bool kUnsigned = false;
-layout(constant_id = 3) const bool kToImage = true;
-
-layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 1) readonly buffer Straight { float straight[]; };
-layout(binding = 2) readonly buffer Turned { float turned[]; };
-layout(binding = 3) buffer Totals { float totals[]; };
-#define VISIBILITY_BINDING 4
-#define DIRECTIONS_BINDING 5
+#include "screen/far_field/far_field_collect_io.h"
+#include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
+#include "gpu/view.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #define STORES_TOTALS

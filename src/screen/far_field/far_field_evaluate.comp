@@ -2,10 +2,8 @@
 // interval.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/far_field/far_field_evaluate_io.h"
 #include "screen/far_field/far_field_evaluate.glsl"
-
-layout(binding = 5) readonly buffer LineSums { vec2 line_sums[]; };
-layout(binding = 6) readonly buffer Counts { float counts[]; };
 
 void add_taps(Receiver r, Part part, Reads reads, Place place, inout Horizon h) {
   for (int k = 0; k < reads.tap_count; ++k) {

@@ -1,33 +1,11 @@
 // What both evaluations have in common (solid and finite occluders): a pixel an invocation, a few
 // directions in registers. Invocations beside each other read neighbouring texels and lines; which of
-// them is a table's affair (lines.h), equal for a row: the processor's numbers to the last bit.
-// Afterwards: evaluate_slice().
+// them is a table's affair (lines.h), equal for a row: the CPU's numbers to the last bit.
+// After a header with OBSCURA_EVALUATION (evaluation_io.h); afterwards: evaluate_slice().
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
-#define PASS_CONSTANTS                                                 \
-  float rho_radius, inverse_radius, entries_per_length;                \
-  int last_entry, rho_start;                                           \
-  int transposed, lattice_stride, margin, directions, direction_count; \
-  int sum_stride, add;                                                 \
-  float slope;
 #include "gpu/view.glsl"
-
-layout(local_size_x = 32, local_size_y = 4) in;
-layout(constant_id = 0) const int kFalloff = 1;  // FalloffKind
-layout(constant_id = 1) const bool kChord = true;
-layout(constant_id = 2) const int kSums = 0;    // SliceSums
-layout(constant_id = 3) const int kMode = 0;    // 0 whole; section 10: 1 near field, 2 far field
-layout(constant_id = 4) const int kPhases = 1;  // of a row's receivers
-layout(constant_id = 5) const int kLineStep = 1;
-layout(constant_id = 6) const int kSegments = 2;
-layout(constant_id = 7) const bool kJitter = false;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) readonly buffer Kappa { float kappa[]; };
-layout(binding = 2) readonly buffer Lattice { float lattice[]; };
-layout(binding = 3) readonly buffer Receivers { vec4 receivers[]; };
-layout(binding = 4) buffer PlaneSums { float sums[]; };
 
 #include "screen/far_field/far_field.glsl"
 
@@ -37,10 +15,9 @@ float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i 
 #include "math/slab.glsl"
 #include "screen/far_field/far_field_slices.glsl"
 
-const int kNearAlone = 1, kFarAlone = 2;
 const int kLinePhases = kPhases / kLineStep;
 
-// What the receivers of a row read: see far_field_program.cpp.
+// What the receivers of a row read: see gpu_tables.cpp.
 struct Reads {
   int taps, tap_count, intervals, interval_count;
   vec3 slopes;

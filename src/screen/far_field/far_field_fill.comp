@@ -3,22 +3,8 @@
 // receivers, tile by tile through shared memory so that reads and writes are both in rows.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS int transposed, lattice_stride, margin;
+#include "screen/far_field/far_field_fill_io.h"
 #include "gpu/view.glsl"
-
-const int kTile = 32;
-layout(local_size_x = 32, local_size_y = 8) in;
-
-layout(constant_id = 0) const bool kLattice = true;  // else receivers alone
-layout(constant_id = 1) const int kOccluder = 0;     // 0 solid, 1 of a thickness, 2 with a back
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Receivers { vec4 receivers[]; };
-layout(binding = 2) writeonly buffer Lattice { float lattice[]; };
-layout(binding = 3) writeonly buffer Turned { vec4 turned_receivers[]; };
-layout(binding = 4) readonly buffer Kappa { float kappa[]; };
-layout(binding = 5) writeonly buffer Back { float backs[]; };
-layout(binding = 6) readonly buffer GivenBack { float given_backs[]; };
 
 #include "screen/far_field/far_field_lattice.glsl"
 
@@ -29,8 +15,8 @@ const float kFarBack = 1e12;  // matter without end, finite so that arithmetic i
 
 // Where a texel's matter ends; 0 on the background. Finite thickness is along the view ray.
 float back_of(ivec2 p, float d) {
-  if (kOccluder == 0 || !(d < kInf)) return 0.0;
-  if (kOccluder == 2) return min(max(given_backs[p.y * view.width + p.x], d), kFarBack);
+  if (kOccluder == kSolid || !(d < kInf)) return 0.0;
+  if (kOccluder == kWithBack) return min(max(given_backs[p.y * view.width + p.x], d), kFarBack);
   const vec2 a = (vec2(p) - (vec2(view.center_u, view.center_v) - 0.5)) *
                  vec2(view.scale_x, view.scale_y);
   const float ray = view.orthographic != 0 ? 1.0 : sqrt(1.0 + dot(a, a));
@@ -46,7 +32,7 @@ vec2 texel_at(ivec2 p) {
 
 void store_texel(int at, vec2 texel) {
   lattice[at] = texel.x;
-  if (kOccluder != 0) backs[at] = texel.y;
+  if (kOccluder != kSolid) backs[at] = texel.y;
 }
 
 void fill_rows(ivec2 corner) {

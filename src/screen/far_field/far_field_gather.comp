@@ -1,24 +1,13 @@
-// Section 10 (totals.cpp, gather): each pixel takes the far field of its accepted neighbours, each of
-// which has a ninth of the directions: nine times their mean.
+// The far field of 3x3 pixels (Timonen 2013, section 10; totals.cpp, gather): each pixel takes nine
+// times the mean of its accepted neighbours, each of which has a ninth of the directions.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#include "gpu/view.glsl"
-
-layout(local_size_x = 32, local_size_y = 4) in;
-layout(constant_id = 0) const int kSums = 0;  // SliceSums
-layout(constant_id = 1) const bool kPaperCone = false;
-layout(constant_id = 2) const bool kUnsigned = false;
-layout(constant_id = 3) const bool kToImage = true;
-
-layout(binding = 0) readonly buffer Normals { vec4 normals[]; };
-layout(binding = 1) readonly buffer Accepted { uint accepted[]; };
-layout(binding = 2) readonly buffer Far { float far[]; };
-layout(binding = 3) buffer Totals { float totals[]; };
-#define VISIBILITY_BINDING 4
-#define DIRECTIONS_BINDING 5
+#include "screen/far_field/far_field_gather_io.h"
+#include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
+#include "gpu/view.glsl"
 
 #include "screen/far_field/far_field_outputs.glsl"
 #define STORES_TOTALS

@@ -2,11 +2,9 @@
 // sectors between its two ends.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/far_field/far_field_matter_io.h"
 #include "screen/far_field/far_field_evaluate.glsl"
 #include "math/matter.glsl"
-
-layout(binding = 5) readonly buffer Back { float backs[]; };
-layout(binding = 6) readonly buffer Lines { vec4 lines[]; };  // nearest, slanted, deepest
 
 // A point outwards, `rows` being times depth unless view rays are parallel.
 void add_piece(Receiver r, Part part, float depth, float back, float rows, float dither,

@@ -2,13 +2,8 @@
 // makes: in pairs, for what is joined depends on the order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS int merges, line_stride;
+#include "screen/far_field/far_field_merge_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 32, local_size_y = 8) in;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) buffer Pieces { vec4 pieces[]; };
 
 const bool kFinite = true;
 float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }

@@ -1,15 +1,9 @@
-// For parallel view rays twice the greatest depth (Plane::kappa), so that what is interpolated grows
+// For parallel view rays twice the greatest depth (Plane::ortho_offset), so that what is interpolated grows
 // towards the camera and is 0 on the background. In two steps: groups of pixels, then the groups.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS int count, last;
+#include "screen/far_field/far_field_range_io.h"
 #include "gpu/view.glsl"
-
-const int kThreads = 256;
-layout(local_size_x = 256) in;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) writeonly buffer Greatest { float greatest[]; };
 
 shared float partial[kThreads];
 

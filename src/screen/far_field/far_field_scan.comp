@@ -4,26 +4,13 @@
 // shared memory.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS                                                        \
-  int transposed, lattice_stride, margin, directions, line_stride, line_step; \
-  float slope;
+#include "screen/far_field/far_field_scan_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 32, local_size_y = 8) in;
-layout(constant_id = 0) const int kInterval = 10;
-layout(constant_id = 1) const bool kFinite = false;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) readonly buffer Kappa { float kappa[]; };
-layout(binding = 2) readonly buffer Lattice { float lattice[]; };
-layout(binding = 3) readonly buffer Back { float backs[]; };
-layout(binding = 4) writeonly buffer Raw { vec2 raw[]; };       // nearest, slanted
-layout(binding = 5) writeonly buffer Pieces { vec4 pieces[]; };  // and deepest
 
 #include "screen/far_field/far_field.glsl"
 #include "screen/far_field/far_field_pieces.glsl"
 
-shared vec3 strips[8][32];
+shared vec3 strips[kStripsPerGroup][kLinesPerGroup];
 
 // One row of a strip: where a line lies between two texels.
 struct Crossing {
@@ -123,7 +110,7 @@ void main() {
   const Direction d = direction_at(at.z);
   vec3 found = no_piece();
   if (at.x < d.lines && at.y < int(d.strips.x)) {
-    const int start = at.y * kInterval - d.phase;
+    const int start = at.y * kInterval - d.strip_offset;
     const int first = max(start, 0), end = min(start + kInterval, plane_size().y);
     if (kFinite) {
       found = scan_matter(d, at.x, first, end);
@@ -133,7 +120,7 @@ void main() {
     store((int(d.raw_rows.x) + at.y) * view.line_stride + at.x, found);
   }
   strips[y][x] = found;
-  for (int level = 1; level < 4; ++level) {
+  for (int level = 1; level < kSharedLevels; ++level) {
     barrier();
     if ((y & ((1 << level) - 1)) == 0) {
       found = merged(found, strips[y + (1 << (level - 1))][x]);

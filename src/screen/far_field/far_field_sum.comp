@@ -1,24 +1,13 @@
-// Section 7's sums over the lines of each strip (scan_simd.cpp, sum_lines), a strip per group.
+// Sums (Timonen 2013, section 7) over the lines of each strip (scan_simd.cpp, sum_lines), a strip per group.
 //
-// The processor sums in double, for a float sum over 2,400 lines loses 7e-5 of the depth. Here sums
+// The CPU sums in double, for a float sum over 2,400 lines loses 7e-5 of the depth. Here sums
 // restart every 2^shift lines, the least power of two that no receiver's interval exceeds at that
 // level of the pyramid, so that an interval crosses at most one restart: entry i is the sum over
 // the lines from the restart before line i - 1 up to and with that line.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS     \
-  int rows, line_stride;   \
-  int sum_stride, phases;  \
-  float slope;
+#include "screen/far_field/far_field_sum_io.h"
 #include "gpu/view.glsl"
-
-const int kThreads = 256;
-layout(local_size_x = 256) in;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) readonly buffer Raw { vec2 raw[]; };
-layout(binding = 2) writeonly buffer Sums { vec2 sums[]; };  // depth, outward
-layout(binding = 3) writeonly buffer Counts { float counts[]; };
 
 shared vec3 partial[2][kThreads];
 

@@ -15,8 +15,8 @@ LineLayout::LineLayout(int width, int height, const Direction& direction, int li
   lines = (all + step - 1) / step;
 }
 
-StripLevels::StripLevels(int height, int phase, int interval) {
-  int strips = (height + phase + interval - 1) / interval;
+StripLevels::StripLevels(int height, int strip_offset, int interval) {
+  int strips = (height + strip_offset + interval - 1) / interval;
   for (;; strips = (strips + 1) / 2) {
     start.push_back(start.back() + strips);
     if (strips <= 2) break;
@@ -26,7 +26,7 @@ StripLevels::StripLevels(int height, int phase, int interval) {
 namespace {
 
 int first_strip(const Direction& direction, int interval, int row) {
-  return (row + direction.phase + 2 * interval - 1) / interval;
+  return (row + direction.strip_offset + 2 * interval - 1) / interval;
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ int find_intervals(const Direction& direction, const Segment& segment, const Lin
   int count = 0, level = 0, strip = first_strip(direction, interval, row);
   while (strip < levels.strips(level) && count < kMaxIntervals) {
     const double size = static_cast<double>(interval) * (1 << level);
-    const double away = (strip + 0.5) * size - 0.5 - direction.phase - row;
+    const double away = (strip + 0.5) * size - 0.5 - direction.strip_offset - row;
     const double start = u - layout.shift(row + away);
     auto line_at = [&](double slope) { return (slope * away + start) / layout.step; };
     const int middle = static_cast<int>(std::floor(line_at(segment.middle) + 0.5));
@@ -54,7 +54,7 @@ int find_intervals(const Direction& direction, const Segment& segment, const Lin
 }
 
 int near_rows(const Direction& direction, int interval, int row, int height) {
-  const int end = first_strip(direction, interval, row) * interval - direction.phase;
+  const int end = first_strip(direction, interval, row) * interval - direction.strip_offset;
   return std::min(end, height) - row;
 }
 

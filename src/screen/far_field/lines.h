@@ -6,7 +6,7 @@
 #include "screen/far_field/directions.h"
 
 // Where scanned lines lie and what the receivers of a row read of them. Nothing here knows the
-// camera or the depth, so that the processor finds it row by row and Vulkan takes it as a table.
+// camera or the depth, so that the CPU finds it row by row and Vulkan takes it as a table.
 namespace obscura::far_field {
 
 inline constexpr int kMaxIntervals = 64;
@@ -24,7 +24,7 @@ struct LineLayout {
 // edge at which scanned lines begin.
 struct StripLevels {
   StripLevels() = default;
-  StripLevels(int height, int phase, int interval);
+  StripLevels(int height, int strip_offset, int interval);
 
   int levels() const { return static_cast<int>(start.size()) - 1; }
   int strips(int level) const { return start[level + 1] - start[level]; }
@@ -43,7 +43,7 @@ struct IntervalLines {
 
 // Which intervals a segment reads for the receiver at texel u of a row (`row` counted outwards):
 // the nearest is at least one interval away; every second one climbs a level of the pyramid
-// (section 6). Returns how many, at most kMaxIntervals.
+// (Timonen 2013, section 6). Returns how many, at most kMaxIntervals.
 int find_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
                    const StripLevels& levels, int interval, int row, int u, IntervalLines* found);
 

@@ -39,15 +39,15 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   Plane& p = *plane;
   const Camera& c = g.camera;
   p.orthographic = c.orthographic;
-  p.kappa = c.orthographic ? 2 * g.max_depth : 0;
+  p.ortho_offset = c.orthographic ? 2 * g.max_depth : 0;
   // Texel centres move to whole numbers.
   const float cu = c.center_u - 0.5f, cv = c.center_v - 0.5f;
   p.width = transposed ? g.height : g.width;
   p.height = transposed ? g.width : g.height;
   p.left = transposed ? g.guard_band.top : g.guard_band.left;
   p.top = transposed ? g.guard_band.left : g.guard_band.top;
-  p.visible_width = transposed ? g.visible_height() : g.visible_width();
-  p.visible_height = transposed ? g.visible_width() : g.visible_height();
+  p.visible_width = transposed ? g.visible().height : g.visible().width;
+  p.visible_height = transposed ? g.visible().width : g.visible().height;
   p.scale_u = transposed ? c.scale_y : c.scale_x;
   p.scale_v = transposed ? c.scale_x : c.scale_y;
   p.center_u = transposed ? cv : cu;
@@ -64,7 +64,7 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   lattice(&p.lattice, [&](int x, int y) {
     const float d = texel(g.depth, x, y);
     if (!std::isfinite(d)) return 0.0f;
-    return p.orthographic ? p.kappa - d : 1 / d;
+    return p.orthographic ? p.ortho_offset - d : 1 / d;
   });
   p.finite = occluder.kind != OccluderKind::kSolid;
   if (p.finite) {
@@ -96,7 +96,7 @@ void fill_receivers(const ReceiverSource& source, const Plane& p, bool transpose
   write(&receivers->lattice, [&](int u, int v) {
     const float d = texel(*source.depth, u, v);
     if (!std::isfinite(d)) return 0.0f;
-    return p.orthographic ? p.kappa - d : 1 / d;
+    return p.orthographic ? p.ortho_offset - d : 1 / d;
   });
   // The image's v and this frame's third axis run against eye space's y and z.
   constexpr float kSign[] = {1, -1, -1};

@@ -36,19 +36,20 @@ struct Plane {
   float scale_u = 0, scale_v = 0, center_u = 0, center_v = 0;
   bool orthographic = false;
 
-  // What the contract interpolates between texels: 1/depth, or for parallel rays kappa - depth;
+  // What is interpolated between texels: 1/depth, or for parallel rays ortho_offset - depth;
   // 0 on the background and in the margin.
   PhaseImage lattice;
-  float kappa = 0;
+  float ortho_offset = 0;
 
   // Finite occluders: the depth at which each texel's matter ends; 0 on the background.
   bool finite = false;
   PhaseImage back;
 
   ReceiverImages own;       // the pixels themselves
-  ReceiverImages averaged;  // section 10: means over 3x3 pixels
+  ReceiverImages averaged;  // means over 3x3 pixels (Timonen 2013, section 10)
   SumImages sums;
-  SumImages far_sums;  // section 10: the far field of each pixel's share of the directions
+  SumImages
+      far_sums;  // the far field of each pixel's share of the directions (Timonen 2013, section 10)
 };
 
 // Depth and normals of receivers where they are in an image.

@@ -42,7 +42,8 @@ struct RowFrame {
 
   HWY_INLINE V DepthOf(V g) const {
     const D d;
-    return plane.orthographic ? hn::Sub(hn::Set(d, plane.kappa), g) : om::FastReciprocal(d, g);
+    return plane.orthographic ? hn::Sub(hn::Set(d, plane.ortho_offset), g)
+                              : om::FastReciprocal(d, g);
   }
 
   const Plane& plane;

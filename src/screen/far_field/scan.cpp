@@ -22,7 +22,7 @@ void ScanBuffer::resize(const Plane& plane, const Direction& direction, int inte
   phases_.count = plane.lattice.phases() / line_step;
   phase_lines_ = (layout.lines + phases_.count - 1) / phases_.count;
   phases_.stride = round_up(phase_lines_ + 1) + 3 * PrefixSums::kPadding;
-  pyramid_ = StripLevels(plane.height, direction.phase, interval);
+  pyramid_ = StripLevels(plane.height, direction.strip_offset, interval);
   const int width = static_cast<int>(phases_.stride) * phases_.count, rows = pyramid_.all();
   nearest_.resize(width, rows);
   slanted_.resize(width, rows);
@@ -62,7 +62,7 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
                 const ScanSettings& settings, int strip, int phase, ScanBuffer* buffer) {
   const int interval = settings.interval;
   ScanRow rows[kMaxInterval];
-  const int start = strip * interval - direction.phase, first = std::max(start, 0);
+  const int start = strip * interval - direction.strip_offset, first = std::max(start, 0);
   const int count = std::max(0, std::min(start + interval, plane.height) - first);
   const int padded = round_up(buffer->phase_lines());
   int begin = padded, end = 0;
@@ -105,7 +105,7 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
                      .begin = begin,
                      .end = end,
                      .orthographic = plane.orthographic,
-                     .kappa = plane.kappa,
+                     .ortho_offset = plane.ortho_offset,
                      .slope = settings.receiver_slope < 0 ? 1.0f : -1.0f,
                      .slack = join_slack(plane),
                      .out = out};

@@ -69,7 +69,8 @@ struct ScanSettings {
 void scan(const Plane& plane, const Direction& direction, const ScanSettings& settings,
           Executor& executor, ScanBuffer* buffer);
 
-// Section 7's sums over lines of every strip that was scanned. Finite occluders have none.
+// Sums (Timonen 2013, section 7) over lines of every strip that was scanned. Finite occluders have
+// none.
 void sum(const Plane& plane, const Direction& direction, const ScanSettings& settings,
          Executor& executor, ScanBuffer* buffer);
 

@@ -33,7 +33,7 @@ void ScanStrip(const StripJob& job) {
       const auto both = hn::Gt(hn::Min(a, b), zero);
       const V g = hn::IfThenElse(both, hn::MulAdd(blend, hn::Sub(b, a), a), single);
       const auto surface = hn::Gt(g, zero);
-      const V depth = job.orthographic ? hn::Sub(hn::Set(d, job.kappa), g) : hn::Div(one, g);
+      const V depth = job.orthographic ? hn::Sub(hn::Set(d, job.ortho_offset), g) : hn::Div(one, g);
       const V outward = hn::Mul(hn::Set(d, row.outward), job.orthographic ? one : depth);
       const V height = hn::MulSub(slope, outward, depth);
       nearest = hn::Min(nearest, hn::IfThenElse(surface, depth, inf));
@@ -66,7 +66,7 @@ void ScanMatter(const StripJob& job) {
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
       auto depth_of = [&](V g) HWY_ATTR {
-        return job.orthographic ? hn::Sub(hn::Set(d, job.kappa), g) : hn::Div(one, g);
+        return job.orthographic ? hn::Sub(hn::Set(d, job.ortho_offset), g) : hn::Div(one, g);
       };
       const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
       const V back_a = hn::LoadU(d, row.back + j), back_b = hn::LoadU(d, row.next_back + j);

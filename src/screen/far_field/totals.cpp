@@ -54,8 +54,8 @@ void finish_uniform(const view::Geometry& g, const Totals& totals, ConeEstimate 
   const AlignedImage<float>* normal[] = {&g.normal_x, &g.normal_y, &g.normal_z};
   FinishJob job;
   job.paper_cone = cone == ConeEstimate::kPaper;
-  for (int x = 0; x < g.visible_width(); x += FinishJob::kMaxCount) {
-    job.count = std::min(FinishJob::kMaxCount, g.visible_width() - x);
+  for (int x = 0; x < g.visible().width; x += FinishJob::kMaxCount) {
+    job.count = std::min(FinishJob::kMaxCount, g.visible().width - x);
     for (int k = 0; k < 3; ++k) {
       job.vector[k] = totals.channel[kUniformVector + k].row(y) + x;
       job.normal[k] = normal[k]->row(y + g.guard_band.top) + g.guard_band.left + x;
@@ -75,7 +75,7 @@ void finish_cosine(const view::Geometry& g, const Totals& totals, int y,
   for (int k = 0; k < 3; ++k) {
     const float* sum = totals.channel[kCosineVector + k].row(y);
     const float* n = normal[k]->row(y + g.guard_band.top) + g.guard_band.left;
-    for (int x = 0; x < g.visible_width(); ++x) {
+    for (int x = 0; x < g.visible().width; ++x) {
       (*views[k])(x, y) = 2.0f / 3 * n[x] - sum[x] / kPi;
     }
   }
@@ -132,8 +132,8 @@ void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& 
 }
 
 void average_groups(const view::Geometry& g, Executor& executor, Groups* groups) {
-  constexpr float kLeastCosine = 0.5f, kDepthRatio = 0.03f;  // section 10
-  const int width = g.visible_width(), height = g.visible_height();
+  constexpr float kLeastCosine = 0.5f, kDepthRatio = 0.03f;  // Timonen 2013, section 10
+  const int width = g.visible().width, height = g.visible().height;
   const int left = g.guard_band.left, top = g.guard_band.top;
   groups->depth.resize(width, height);
   for (auto& image : groups->normal) image.resize(width, height);
@@ -225,10 +225,10 @@ void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& 
 
 void finish(const view::Geometry& g, const Totals& totals, ConeEstimate cone, Executor& executor,
             const Outputs& o) {
-  const int width = g.visible_width();
+  const int width = g.visible().width;
   const bool uniform =
       !o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty();
-  for_rows(g.visible_height(), executor, [&](int y) {
+  for_rows(g.visible().height, executor, [&](int y) {
     if (!o.visibility.empty()) {
       const float* sum = totals.channel[kObscurance].row(y);
       for (int x = 0; x < width; ++x) {

@@ -38,8 +38,9 @@ struct WantedSums {
 void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& wanted,
              Executor& executor, Totals* totals);
 
-// Section 10. Which of a pixel's 3x3 neighbours see the same surface, and their mean depth (on the
-// lattice, where planes are linear) and normal, from which the group's far field is seen.
+// Groups of 3x3 pixels (Timonen 2013, section 10). Which of a pixel's 3x3 neighbours see the same
+// surface, and their mean depth (on the lattice, where planes are linear) and normal, from which
+// the group's far field is seen.
 struct Groups {
   AlignedImage<float> depth, normal[3];
   AlignedImage<std::uint16_t> accepted;  // bit 3 (dy + 1) + dx + 1

@@ -29,8 +29,8 @@ void halve(const AlignedImage<float>& from, const HalfAxis& x, const HalfAxis& y
 
 void halve(const view::Geometry& g, Executor& executor, view::Geometry* half) {
   const GuardBand& guard = g.guard_band;
-  const HalfAxis x = view::halve(g.width, guard.left, g.visible_width());
-  const HalfAxis y = view::halve(g.height, guard.top, g.visible_height());
+  const HalfAxis x = view::halve(g.width, guard.left, g.visible().width);
+  const HalfAxis y = view::halve(g.height, guard.top, g.visible().height);
   half->width = x.size;
   half->height = y.size;
   half->guard_band = {x.before, x.after(), y.before, y.after()};
@@ -121,7 +121,7 @@ class HalfResolution final : public Method {
       if (of.empty()) return {};
       if (next == images_.size()) images_.emplace_back();
       AlignedImage<float>& image = images_[next++];
-      image.resize(half_.visible_width(), half_.visible_height());
+      image.resize(half_.visible().width, half_.visible().height);
       return image.view();
     };
     auto vector = [&](const VectorView<float>& of) -> VectorView<float> {
@@ -139,12 +139,12 @@ class HalfResolution final : public Method {
   }
 
   void fill_in(const view::Geometry& g, const std::vector<Channel>& channels, Executor& executor) {
-    const int width = g.visible_width(), height = g.visible_height();
+    const int width = g.visible().width, height = g.visible().height;
     rows_.resize(std::max<std::size_t>(rows_.size(), executor.thread_count()));
     for (Rows& rows : rows_) {
       rows.resize(width, kValuePlane + static_cast<int>(channels.size()));
     }
-    const int tasks = (half_.visible_height() + kRowsPerTask - 1) / kRowsPerTask;
+    const int tasks = (half_.visible().height + kRowsPerTask - 1) / kRowsPerTask;
     executor.parallel_for(tasks, [&](int task, int worker) {
       const int first = 2 * kRowsPerTask * task;  // row of the visible part
       const int below = std::min(height, first + kRows);
@@ -160,7 +160,7 @@ class HalfResolution final : public Method {
   }
 
   static void load(const view::Geometry& g, int y, int to, Rows* rows) {
-    const int width = g.visible_width(), row = g.guard_band.top + y, left = g.guard_band.left;
+    const int width = g.visible().width, row = g.guard_band.top + y, left = g.guard_band.left;
     float* surface = rows->row(0, to);
     surface_row(g.depth.row(row) + left, width, g.camera.orthographic, surface);
     std::fill_n(surface + width, kMargin, 0.0f);
@@ -171,12 +171,12 @@ class HalfResolution final : public Method {
     }
   }
 
-  static BetweenRow shared_row(const view::Geometry& g, const std::vector<Channel>& channels,
-                               float pixel, int at, Rows* rows) {
-    BetweenRow row;
+  static UpsamplingRow shared_row(const view::Geometry& g, const std::vector<Channel>& channels,
+                                  float pixel, int at, Rows* rows) {
+    UpsamplingRow row;
     row.channels = static_cast<int>(channels.size());
     row.orthographic = g.camera.orthographic;
-    row.edge = kBetweenEdge * pixel;
+    row.edge = kUpsamplingEdge * pixel;
     row.surface = rows->row(0, at);
     for (int k = 0; k < 3 && g.has_normals; ++k) row.normal[k] = rows->row(kNormalPlane + k, at);
     for (int c = 0; c < row.channels; ++c) {
@@ -189,27 +189,27 @@ class HalfResolution final : public Method {
   // A row that the method has seen: every second pixel is known.
   void fill_row(const view::Geometry& g, const std::vector<Channel>& channels, int y, int at,
                 Rows* rows) {
-    const int width = g.visible_width();
+    const int width = g.visible().width;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const float* known = images_[c].row(y / 2);
       const float* normal = rows->row(kNormalPlane + channels[c].axis, at);
       const float part = channels[c].normal_part;
       float* values = rows->row(kValuePlane + static_cast<int>(c), at);
-      for (int i = 0; i < half_.visible_width(); ++i) {
+      for (int i = 0; i < half_.visible().width; ++i) {
         values[2 * i] = known[i] - part * normal[2 * i];
       }
     }
-    BetweenRow row = shared_row(g, channels, g.camera.scale_x, at, rows);
+    UpsamplingRow row = shared_row(g, channels, g.camera.scale_x, at, rows);
     row.odd_only = true;
-    between_row(row, width);
+    upsample_row(row, width);
   }
 
   static void fill_between_rows(const view::Geometry& g, const std::vector<Channel>& channels,
                                 int y, int at, Rows* rows) {
-    BetweenRow row = shared_row(g, channels, g.camera.scale_y, at, rows);
+    UpsamplingRow row = shared_row(g, channels, g.camera.scale_y, at, rows);
     row.value_step = row.surface_step = row.normal_step = rows->memory.stride();
-    row.after = y + 1 < g.visible_height();
-    between_row(row, g.visible_width());
+    row.after = y + 1 < g.visible().height;
+    upsample_row(row, g.visible().width);
   }
 
   // Differences become results.

@@ -1,74 +1,20 @@
 #include "screen/half_resolution/gpu.h"
 
-#include <bit>
-
 #include "filters/upsampling/kernel.h"
 #include "shaders/halve.h"
 #include "shaders/upsampling.h"
+#include "view/gpu.h"
+#include "view/half.h"
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 namespace {
 
-// What the method gives, in scratch memory.
-struct HalfResults {
-  int visibility = -1, directions = -1;
-};
-
-Geometry add_half_geometry(const FrameShape& shape, const Geometry& whole, Program* program) {
-  const view::HalfAxis x = half_columns(shape), y = half_rows(shape);
-  const auto pixels = static_cast<VkDeviceSize>(x.size) * y.size;
-  const auto visible = static_cast<VkDeviceSize>(x.visible) * y.visible;
-  const bool normals = whole.normals >= 0;
-  Geometry half;
-  half.depth = program->add_region(pixels * sizeof(float));
-  if (normals) half.normals = program->add_region(visible * 4 * sizeof(float));
-  std::vector<std::uint32_t> push;
-  for (int value : {x.first, y.first, x.size, y.size, x.before, y.before, x.visible, y.visible}) {
-    push.push_back(static_cast<std::uint32_t>(value));
-  }
-  program->passes.push_back(
-      {.name = "halve",
-       .spirv = shaders::halve,
-       .constants = {normals},
-       .slots = {Slot::of(whole.depth), Slot::of(normals ? whole.normals : whole.depth),
-                 Slot::of(half.depth), Slot::of(normals ? half.normals : half.depth)},
-       .width = x.size,
-       .height = y.size,
-       .push = push});
-  if (whole.back >= 0) {
-    half.back = program->add_region(pixels * sizeof(float));
-    program->passes.push_back({.name = "halve",
-                               .spirv = shaders::halve,
-                               .constants = {0},
-                               .slots = {Slot::of(whole.back), Slot::of(whole.back),
-                                         Slot::of(half.back), Slot::of(half.back)},
-                               .width = x.size,
-                               .height = y.size,
-                               .push = push,
-                               .overlaps = true});
-  }
-  return half;
+view::HalfAxis half_columns(const FrameShape& s) {
+  return view::halve(s.width, s.guard_band.left, s.visible().width);
 }
-
-// Makes the passes from `first` on work at half resolution and leave their results to others.
-Status redirect(std::size_t first, const HalfResults& results, Program* program) {
-  for (std::size_t i = first; i < program->passes.size(); ++i) {
-    Pass& pass = program->passes[i];
-    pass.half = true;
-    for (Slot& slot : pass.slots) {
-      const bool visibility = slot.kind == Slot::kVisibilityImage;
-      if (!visibility && slot.kind != Slot::kBentNormalImage) continue;
-      if (pass.spirv.to_scratch.empty()) {
-        return unsupported("on Vulkan this method works at full resolution only");
-      }
-      pass.to_scratch = true;
-      slot = Slot::of(visibility ? results.visibility : results.directions);
-    }
-  }
-  return {};
+view::HalfAxis half_rows(const FrameShape& s) {
+  return view::halve(s.height, s.guard_band.top, s.visible().height);
 }
-
-}  // namespace
 
 FrameShape half_shape(const FrameShape& shape) {
   const view::HalfAxis x = half_columns(shape), y = half_rows(shape);
@@ -80,33 +26,88 @@ FrameShape half_shape(const FrameShape& shape) {
   return half;
 }
 
-Status make_half_program(const FrameShape& shape, const MakeProgram& make, Program* program) {
-  const FrameShape half = half_shape(shape);
-  const bool normals = shape.normal_use != NormalUse::kNone;
-  const bool directions = shape.directions != Directions::kNone;
-  const auto visible = static_cast<VkDeviceSize>(visible_width(half)) * visible_height(half);
-  Geometry whole = add_geometry(shape, normals, program);
-  if (shape.back_depth) whole.back = add_back_depth(shape, program);
-  program->geometry = add_half_geometry(shape, whole, program);
-  HalfResults results;
-  results.visibility = program->add_region(visible * sizeof(float));
-  results.directions =
-      directions ? program->add_region(visible * 4 * sizeof(float)) : results.visibility;
-  const std::size_t first = program->passes.size();
-  if (Status s = make(half, program); !s.ok()) return s;
-  if (Status s = redirect(first, results, program); !s.ok()) return s;
-  program->passes.push_back(
-      {.name = "fill in",
-       .spirv = shaders::upsampling,
-       .constants = {normals, directions, shape.directions == Directions::kUnsigned},
-       .slots = {Slot::of(whole.depth), Slot::of(normals ? whole.normals : whole.depth),
-                 Slot::of(results.visibility), Slot::of(results.directions),
-                 Slot::image(Slot::kVisibilityImage),
-                 Slot::image(directions ? Slot::kBentNormalImage : Slot::kVisibilityImage)},
-       .width = visible_width(shape),
-       .height = visible_height(shape),
-       .push = {std::bit_cast<std::uint32_t>(kBetweenEdge)}});
+// One image of depth and, unless they are -1, its normals.
+void add_halving(const Frame& frame, const Geometry& whole, const Geometry& half, bool overlaps,
+                 Program* program) {
+  namespace io = halve_io;
+  const view::HalfAxis x = half_columns(frame.shape), y = half_rows(frame.shape);
+  const bool normals = half.normals >= 0;
+  program->add({.name = "halve",
+                .shader = shaders::halve,
+                .constants = {{io::kNormals, normals}},
+                .slots = {{io::kDepthAt, whole.depth},
+                          {io::kNormalsAt, normals ? whole.normals : whole.depth},
+                          {io::kHalfDepthAt, half.depth},
+                          {io::kHalfNormalsAt, normals ? half.normals : half.depth}},
+                .size = {x.size, y.size},
+                .push = push_words(io::Push{.first_x = x.first,
+                                            .first_y = y.first,
+                                            .half_width = x.size,
+                                            .half_height = y.size,
+                                            .half_left = x.before,
+                                            .half_top = y.before,
+                                            .half_visible_width = x.visible,
+                                            .half_visible_height = y.visible}),
+                .overlaps = overlaps});
+}
+
+Geometry add_half_geometry(const Frame& frame, const Geometry& whole, const FrameShape& shape,
+                           Program* program) {
+  const std::uint64_t depth_bytes = sizeof(float) * shape.size().pixels();
+  Geometry half;
+  half.depth = program->add_region(depth_bytes);
+  if (whole.normals >= 0) {
+    half.normals = program->add_region(4 * sizeof(float) * shape.visible().pixels());
+  }
+  add_halving(frame, whole, half, false, program);
+  if (whole.back >= 0) {
+    half.back = program->add_region(depth_bytes);
+    add_halving(frame, {.depth = whole.back}, {.depth = half.back}, true, program);
+  }
+  return half;
+}
+
+void add_upsampling(const Frame& frame, const Geometry& whole, const Results& half,
+                    Program* program) {
+  namespace io = upsampling_io;
+  const bool normals = whole.normals >= 0;
+  program->add({.name = "fill in",
+                .shader = shaders::upsampling,
+                .constants = {{io::kNormals, normals},
+                              {io::kDirections, frame.directions()},
+                              {io::kUnsigned, frame.shape.directions == Directions::kUnsigned}},
+                .slots = {{io::kDepthAt, whole.depth},
+                          {io::kNormalsAt, normals ? whole.normals : whole.depth},
+                          {io::kSeenAt, half.visibility},
+                          {io::kSeenDirectionsAt, half.directions},
+                          {io::kVisibilityResultAt, frame.results.visibility},
+                          {io::kDirectionResultAt, frame.results.directions}},
+                .size = frame.visible(),
+                .push = push_words(io::Push{.edge = kUpsamplingEdge})});
+}
+
+}  // namespace
+
+FrameConstants half_frame_constants(const FrameShape& shape, const FrameView& view) {
+  return frame_constants(half_shape(shape),
+                         view::halve(view.camera, half_columns(shape), half_rows(shape)), view);
+}
+
+Status make_half_program(const Frame& frame, const std::function<Status(const Frame& half)>& make,
+                         Program* program) {
+  const FrameShape shape = half_shape(frame.shape);
+  Geometry whole = add_geometry(frame, shape.normal_use != NormalUse::kNone, program);
+  if (shape.back_depth) whole.back = add_back_depth(frame, program);
+  const Geometry geometry = add_half_geometry(frame, whole, shape, program);
+  const std::uint64_t bytes = sizeof(float) * shape.visible().pixels();
+  const Slot visibility = program->add_region(bytes);
+  const Slot directions = frame.directions() ? Slot(program->add_region(4 * bytes)) : visibility;
+  const Frame half{.shape = shape, .results = {visibility, directions}, .geometry = geometry};
+  program->half = true;
+  if (Status s = make(half); !s.ok()) return s;
+  program->half = false;
+  add_upsampling(frame, whole, half.results, program);
   return {};
 }
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu

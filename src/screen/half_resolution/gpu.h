@@ -3,25 +3,19 @@
 
 #include <functional>
 
+#include "gpu/frame.h"
 #include "gpu/program.h"
-#include "view/half.h"
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 
-// What a method sees at half resolution (screen/half_resolution.h).
-inline view::HalfAxis half_columns(const FrameShape& s) {
-  return view::halve(s.width, s.guard_band.left, visible_width(s));
-}
-inline view::HalfAxis half_rows(const FrameShape& s) {
-  return view::halve(s.height, s.guard_band.top, visible_height(s));
-}
-FrameShape half_shape(const FrameShape& shape);
+// What a pass at half resolution (screen/half_resolution/half_resolution.h) sees of a frame.
+FrameConstants half_frame_constants(const FrameShape& shape, const FrameView& view);
 
-// The passes of a method at half resolution, which `make` adds for a shape, and what goes around
-// them.
-using MakeProgram = std::function<Status(const FrameShape& shape, Program* program)>;
-Status make_half_program(const FrameShape& shape, const MakeProgram& make, Program* program);
+// Adds a method at half resolution and what goes around it. `make` adds the method's passes for a
+// frame of half the size, whose geometry is there and whose results are regions.
+Status make_half_program(const Frame& frame, const std::function<Status(const Frame& half)>& make,
+                         Program* program);
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu
 
 #endif  // OBSCURA_SRC_SCREEN_HALF_RESOLUTION_GPU_H_

@@ -2,73 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "core/random.h"
 #include "filters/interleaved/interleaved.h"
-#include "screen/hemisphere/kernel.h"
-#include "screen/volumetric/volumetric.h"
+#include "screen/method.h"
 
 namespace obscura {
 namespace {
 
-using directional::kChannels;
-using directional::Sums;
+using interleaved::kChannels;
+using interleaved::Sums;
 
 constexpr int kRowsPerTask = 8;
-
-// 0 ... count - 1 in random order.
-std::vector<int> shuffled(int count, Random* random) {
-  std::vector<int> order(count);
-  for (int i = 0; i < count; ++i) {
-    const int j = random->below(i + 1);
-    order[i] = order[j];
-    order[j] = i;
-  }
-  return order;
-}
-
-// The directions' azimuths advance by the golden angle; each pixel of the tile turns them by its
-// own part of the circle and shifts them by its own parts of a stratum and of a step.
-void set_pattern(const HemisphereSettings& s, hemisphere::Frame* f) {
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  for (int i = 0; i < s.samples; ++i) {
-    f->cosine[i] = static_cast<float>(std::cos(golden * i));
-    f->sine[i] = static_cast<float>(std::sin(golden * i));
-    f->offset[i] = static_cast<float>(std::fmod(i * 0.75487766624669276, 1.0));
-  }
-  const int m = s.interleave, cells = m * m;
-  Random random(s.seed);
-  const std::vector<int> turns = shuffled(cells, &random), shifts = shuffled(cells, &random);
-  const std::vector<int> offsets = shuffled(cells, &random);
-  for (int cell = 0; cell < cells; ++cell) {
-    const double turn = 2 * std::numbers::pi * (turns[cell] + 0.5) / cells;
-    const double shift = (shifts[cell] + 0.5) / cells;
-    double values[hemisphere::kTileValues] = {};
-    values[hemisphere::kTileCos] = std::cos(turn);
-    values[hemisphere::kTileSin] = std::sin(turn);
-    values[hemisphere::kTileShift] = shift;
-    values[hemisphere::kTileOffset] = (offsets[cell] + 0.5) / cells;
-    double cosine_sum = 0;
-    for (int i = 0; i < s.samples; ++i) {
-      const double z = 1 - (i + shift) / s.samples, r = std::sqrt(1 - z * z);
-      const double w[3] = {r * std::cos(golden * i + turn), r * std::sin(golden * i + turn), z};
-      cosine_sum += z;
-      for (int k = 0; k < 3; ++k) {
-        values[hemisphere::kTileMean + k] += w[k] / s.samples;
-        values[hemisphere::kTileCosineMean + k] += w[k] * z;
-      }
-    }
-    for (int k = 0; k < 3; ++k) values[hemisphere::kTileCosineMean + k] /= cosine_sum;
-    values[hemisphere::kTileCosineSum] = cosine_sum;
-    for (int v = 0; v < hemisphere::kTileValues; ++v) {
-      for (int x = cell % m; x < hemisphere::kTileRow; x += m) {
-        f->tile[v][cell / m][x] = static_cast<float>(values[v]);
-      }
-    }
-  }
-}
 
 class HemisphereMethod final : public Method {
  public:
@@ -161,7 +106,7 @@ class HemisphereMethod final : public Method {
   // Sums of one kind, their blur, and the results that come from them.
   Status pass(const view::Geometry& g, const Outputs& o, Sums kind, bool directions,
               const RunContext& context) {
-    const int width = g.visible_width(), height = g.visible_height();
+    const int width = g.visible().width, height = g.visible().height;
     const int channels = directions ? kChannels : 1;
     Progress progress(height, context.progress);
     auto sum_rows = [&](int first, int end) {
@@ -199,31 +144,17 @@ class HemisphereMethod final : public Method {
 
   const HemisphereSettings settings_;
   hemisphere::Frame frame_;
-  directional::InterleavedSums sums_;
+  interleaved::InterleavedSums sums_;
   std::vector<float> light_[3];
 };
 
 }  // namespace
 
-Status make_hemisphere_frame(const HemisphereSettings& settings, hemisphere::Frame* f) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  f->radius = std::clamp(settings.falloff.radius, 1e-30f, 1e30f);
-  f->quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-  if (settings.occluder.kind == OccluderKind::kThickness) {
-    f->thickness = settings.occluder.thickness;
-  }
-  f->samples = settings.samples;
-  f->tests = settings.steps + 1;
-  f->interleave = settings.interleave;
-  set_pattern(settings, f);
-  return {};
-}
-
-Status make_hemisphere(const HemisphereSettings& settings, int width, int height,
-                       std::unique_ptr<Method>* method) {
+template <>
+Status make_method(const HemisphereSettings& settings, int width, int height,
+                   std::unique_ptr<Method>* method) {
   hemisphere::Frame frame;
-  if (Status s = make_hemisphere_frame(settings, &frame); !s.ok()) return s;
+  if (Status s = make_plan(settings, &frame); !s.ok()) return s;
   *method = std::make_unique<HemisphereMethod>(settings, frame, width, height);
   return {};
 }

@@ -1,8 +1,10 @@
 #include "filters/interleaved/gpu.h"
+#include "screen/gpu.h"
 #include "screen/hemisphere/plan.h"
 #include "shaders/hemisphere.h"
+#include "view/gpu.h"
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 namespace {
 
 std::vector<float> tables_of(const hemisphere::Frame& f) {
@@ -20,38 +22,44 @@ std::vector<float> tables_of(const hemisphere::Frame& f) {
 
 }  // namespace
 
-Status make_program(const HemisphereSettings& settings, const FrameShape& shape, Program* program) {
+template <>
+Status make_program(const HemisphereSettings& settings, const Frame& frame, Program* program) {
+  namespace io = hemisphere_io;
   hemisphere::Frame f;
-  if (Status s = make_hemisphere_frame(settings, &f); !s.ok()) return s;
-  if (shape.normal_use == NormalUse::kNone) {
-    return unsupported("hemisphere needs normals; normal_use is none");
-  }
-  const bool directions = shape.directions != Directions::kNone;
+  if (Status s = make_plan(settings, &f); !s.ok()) return s;
+  const Demands demands{.method = "hemisphere", .normals = true, .directions = true};
+  if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool cosine = settings.weighting == RayWeighting::kCosine;
-  const Geometry g = add_geometry(shape, true, program);
-  program->tables = tables_of(f);
-  program->table_region = program->add_region(program->tables.size() * sizeof(float));
+  const Geometry g = add_geometry(frame, true, program);
+  program->add_table(tables_of(f));
   // Directions have uniform weights; so has then the visibility that is summed with them.
-  const SumRegions sums = add_sums(shape, cosine || !directions, directions, program);
-  const int any = directions ? sums.directions : sums.open;
-  program->passes.push_back(
-      {.name = "sample",
-       .spirv = shaders::hemisphere,
-       .constants = {static_cast<std::uint32_t>(f.samples), static_cast<std::uint32_t>(f.tests),
-                     static_cast<std::uint32_t>(f.interleave), f.quadratic, f.thickness > 0,
-                     sums.open >= 0, cosine, directions},
-       .slots = {Slot::of(g.depth), Slot::of(g.normals), Slot::of(program->table_region),
-                 Slot::of(sums.open >= 0 ? sums.open : any), Slot::of(any)},
-       .width = visible_width(shape),
-       .height = visible_height(shape),
-       .radius = f.radius,
-       .thickness = f.thickness});
-  add_resolution(shape, g, sums,
-                 {.interleave = settings.blur ? settings.interleave : 1,
-                  .paper_cone = settings.cone == ConeEstimate::kPaper,
-                  .edge = f.radius},
-                 program);
+  const SumRegions sums =
+      add_sums(frame, cosine || !frame.directions(), frame.directions(), program);
+  const bool open = sums.open >= 0;
+  program->add({.name = "sample",
+                .shader = shaders::hemisphere,
+                .constants = {{io::kSamples, f.samples},
+                              {io::kTests, f.tests},
+                              {io::kInterleave, f.interleave},
+                              {io::kQuadratic, f.quadratic},
+                              {io::kThickness, f.thickness > 0},
+                              {io::kOpen, open},
+                              {io::kCosine, cosine},
+                              {io::kDirections, frame.directions()}},
+                .slots = {{io::kDepthAt, g.depth},
+                          {io::kNormalsAt, g.normals},
+                          {io::kTablesAt, program->table_region},
+                          {io::kOpenAt, open ? sums.open : sums.any()},
+                          {io::kDirectionsAt, sums.any()}},
+                .size = frame.visible(),
+                .radius = f.radius,
+                .thickness = f.thickness});
+  add_denoising(frame, g, sums,
+                {.interleave = settings.blur ? settings.interleave : 1,
+                 .paper_cone = settings.cone == ConeEstimate::kPaper,
+                 .edge = f.radius},
+                program);
   return {};
 }
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu

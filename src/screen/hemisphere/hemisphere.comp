@@ -1,27 +1,10 @@
 // Directions over the hemisphere, each tested at a few points in depth: hemisphere_simd.cpp in GLSL;
 // symbols as there. One pixel per invocation, one sum of an interleaved pattern each
-// (directional/interleaved.comp).
+// (filters/interleaved).
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/hemisphere/hemisphere_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kSamples = 8;
-layout(constant_id = 1) const int kTests = 4;
-layout(constant_id = 2) const int kInterleave = 4;
-layout(constant_id = 3) const bool kQuadratic = false;
-layout(constant_id = 4) const bool kThickness = false;
-layout(constant_id = 5) const bool kOpen = true;     // visibility goes to open_sums
-layout(constant_id = 6) const bool kCosine = true;   // its weights
-layout(constant_id = 7) const bool kDirections = false;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-// Per sample cosine and sine of its azimuth and the offset of its tests; kTileValues of each pixel of
-// the tile (TileValue).
-layout(binding = 2) readonly buffer Tables { float tables[]; };
-layout(binding = 3) writeonly buffer Open { float open_sums[]; };
-layout(binding = 4) writeonly buffer Directions { vec4 sums[]; };
 
 const int kTileCos = 0, kTileSin = 1, kTileShift = 2, kTileOffset = 3, kTileMean = 4;
 const int kTileCosineSum = 10, kTileValues = 11;

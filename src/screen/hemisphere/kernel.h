@@ -8,7 +8,7 @@
 namespace obscura::hemisphere {
 
 inline constexpr int kMaxSamples = 64;
-using directional::kMaxInterleave;
+using interleaved::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
 // What differs from pixel to pixel of the tile.
@@ -45,13 +45,13 @@ struct Frame {
   float tile[kTileValues][kMaxInterleave][kTileRow] = {};
 };
 
-// Sums of one visible row, of one kind at a time, as directional/interleaved_kernel.h has them but
+// Sums of one visible row, of one kind at a time, as filters/interleaved/kernel.h has them but
 // with the means of the pattern's own directions in place of n/2 and 2/3 n, from which they differ
 // by the pattern's noise. A null x channel leaves out directions. Whole vectors are written past
 // the end.
 struct Sums {
-  float* uniform[directional::kChannels] = {};
-  float* cosine[directional::kChannels] = {};
+  float* uniform[interleaved::kChannels] = {};
+  float* cosine[interleaved::kChannels] = {};
   float* radiance[3] = {};  // sum V L (n.w) / sum (n.w); alone
 };
 void sum_row(const Frame& frame, int row, int width, const Sums& sums);

@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using directional::kChannels;
 using hemisphere::Frame;
 using hemisphere::Sums;
+using interleaved::kChannels;
 using D = hn::ScalableTag<float>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;

@@ -1,11 +1,11 @@
-#include <bit>
-
 #include "filters/interleaved/gpu.h"
-#include "screen/horizon/kernel.h"
+#include "math/slice_sums.h"
+#include "screen/gpu.h"
 #include "screen/horizon/plan.h"
 #include "shaders/horizon.h"
+#include "view/gpu.h"
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 namespace {
 
 std::vector<float> tables_of(const horizon::Frame& f, const math::Rho& rho) {
@@ -24,45 +24,49 @@ std::vector<float> tables_of(const horizon::Frame& f, const math::Rho& rho) {
 
 }  // namespace
 
-Status make_program(const HorizonSettings& settings, const FrameShape& shape, Program* program) {
-  horizon::Frame f;
-  math::Rho rho;
-  if (Status s = make_horizon_frame(settings, &rho, &f); !s.ok()) return s;
-  if (shape.normal_use == NormalUse::kNone) {
-    return unsupported("horizon needs normals; normal_use is none");
-  }
+template <>
+Status make_program(const HorizonSettings& settings, const Frame& frame, Program* program) {
+  namespace io = horizon_io;
+  HorizonPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  const auto& [rho, f] = plan;
+  const Demands demands{.method = "horizon", .normals = true, .directions = true};
+  if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool classic = settings.variant == HorizonVariant::kClassic;
-  const bool directions = shape.directions != Directions::kNone;
-  const Geometry g = add_geometry(shape, true, program);
-  program->tables = tables_of(f, rho);
-  program->table_region = program->add_region(program->tables.size() * sizeof(float));
-  const SumRegions sums = add_sums(shape, !directions, directions, program);
-  auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-  program->passes.push_back(
-      {.name = "sample",
-       .spirv = shaders::horizon,
-       .constants = {static_cast<std::uint32_t>(f.directions), static_cast<std::uint32_t>(f.steps),
-                     static_cast<std::uint32_t>(f.interleave), classic,
-                     static_cast<std::uint32_t>(rho.kind), f.chord,
-                     static_cast<std::uint32_t>(directions ? SliceSums::kUniform
-                                                           : SliceSums::kVisibility)},
-       .slots = {Slot::of(g.depth), Slot::of(g.normals), Slot::of(program->table_region),
-                 Slot::of(directions ? sums.directions : sums.open),
-                 Slot::of(directions ? sums.directions : sums.open)},
-       .width = visible_width(shape),
-       .height = visible_height(shape),
-       .radius = f.reach,
-       .push = {bits(rho.radius), bits(rho.inverse_radius), bits(rho.entries_per_length),
-                static_cast<std::uint32_t>(rho.last_entry), bits(f.bias_sine),
-                bits(f.bias_cosine)}});
-  add_resolution(shape, g, sums,
-                 {.interleave = settings.blur ? settings.interleave : 1,
-                  .cosine_open = !classic,
-                  .paper_cone = settings.cone == ConeEstimate::kPaper,
-                  .edge = rho.radius,
-                  .longest_edge = horizon::kLongestEdge},
-                 program);
+  const Geometry g = add_geometry(frame, true, program);
+  program->add_table(tables_of(f, rho));
+  const SumRegions sums = add_sums(frame, !frame.directions(), frame.directions(), program);
+  const SliceSums kind = frame.directions() ? SliceSums::kUniform : SliceSums::kVisibility;
+  program->add({.name = "sample",
+                .shader = shaders::horizon,
+                .constants = {{io::kDirections, f.directions},
+                              {io::kSteps, f.steps},
+                              {io::kInterleave, f.interleave},
+                              {io::kClassic, classic},
+                              {io::kFalloff, static_cast<int>(rho.kind)},
+                              {io::kChord, f.chord},
+                              {io::kSums, static_cast<int>(kind)}},
+                .slots = {{io::kDepthAt, g.depth},
+                          {io::kNormalsAt, g.normals},
+                          {io::kTablesAt, program->table_region},
+                          {io::kOpenAt, sums.any()},
+                          {io::kDirectionsAt, sums.any()}},
+                .size = frame.visible(),
+                .radius = f.reach,
+                .push = push_words(io::Push{.rho_radius = rho.radius,
+                                            .inverse_radius = rho.inverse_radius,
+                                            .entries_per_length = rho.entries_per_length,
+                                            .last_entry = rho.last_entry,
+                                            .bias_sine = f.bias_sine,
+                                            .bias_cosine = f.bias_cosine})});
+  add_denoising(frame, g, sums,
+                {.interleave = settings.blur ? settings.interleave : 1,
+                 .cosine_open = !classic,
+                 .paper_cone = settings.cone == ConeEstimate::kPaper,
+                 .edge = rho.radius,
+                 .longest_edge = horizon::kLongestEdge},
+                program);
   return {};
 }
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu

@@ -1,32 +1,11 @@
 // Horizons along a few directions, horizon_simd.cpp in GLSL; symbols as there. One pixel per
-// invocation, one sum of an interleaved pattern each (directional/interleaved.comp).
+// invocation, one sum of an interleaved pattern each (filters/interleaved).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
-#define PASS_CONSTANTS               \
-  float rho_radius, inverse_radius;  \
-  float entries_per_length;          \
-  int last_entry;                    \
-  float bias_sine, bias_cosine;
+#include "screen/horizon/horizon_io.h"
 #include "gpu/view.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kDirections = 8;
-layout(constant_id = 1) const int kSteps = 8;
-layout(constant_id = 2) const int kInterleave = 4;
-layout(constant_id = 3) const bool kClassic = false;
-layout(constant_id = 4) const int kFalloff = 1;  // FalloffKind
-layout(constant_id = 5) const bool kChord = true;
-layout(constant_id = 6) const int kSums = 0;  // SliceSums
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-// Per direction cosine, sine and shift; the same per pixel of the tile; rho's table.
-layout(binding = 2) readonly buffer Tables { float tables[]; };
-// Without directions the open share alone.
-layout(binding = 3) writeonly buffer Open { float open_sums[]; };
-layout(binding = 4) writeonly buffer Directions { vec4 sums[]; };
 
 float rho_table(int i) { return tables[3 * (kDirections + kInterleave * kInterleave) + i]; }
 

@@ -9,7 +9,7 @@
 namespace obscura::horizon {
 
 inline constexpr int kMaxDirections = 64;
-using directional::kMaxInterleave;
+using interleaved::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
 // The blur's longest edge, as a share of the farthest depth.
@@ -35,10 +35,10 @@ struct Frame {
   float bias_sine = 0, bias_cosine = 1;  // classic
 };
 
-// Sums of one visible row as directional/interleaved_kernel.h has them; whole vectors are written
+// Sums of one visible row as filters/interleaved/kernel.h has them; whole vectors are written
 // past the end. Slices: `open` is always cosine-weighted; kVisibility writes that channel alone.
 // Classic: all is uniform, directions are written if out[1] is there.
-using Rows = float* const[directional::kChannels];
+using Rows = float* const[interleaved::kChannels];
 void slices_row(const Frame& frame, SliceSums sums, int row, int width, Rows out);
 void classic_row(const Frame& frame, int row, int width, Rows out);
 

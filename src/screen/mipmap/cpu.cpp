@@ -2,56 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "screen/mipmap/kernel.h"
+#include "screen/method.h"
 
 namespace obscura {
-
-int mipmap_level_count(int width, int height) {
-  int count = 1;
-  while (std::max(width, height) >> count >= 1) ++count;
-  return count;
-}
-
-std::vector<MipmapStep> mipmap_steps(const MipmapSettings& s, int width, int height) {
-  const int levels = std::min(mipmap_level_count(width, height), kMaxMipmapLevels);
-  const float sector = 2 * std::tan(std::numbers::pi_v<float> / static_cast<float>(s.directions));
-  const float last = std::max(static_cast<float>(levels - 1) - 0.001f, 0.0f);
-  std::vector<MipmapStep> steps;
-  // No direction's edge is farther away than both sides together.
-  const float end = static_cast<float>(width + height);
-  float distance = 1, step = 1, before = 0;
-  while (before < end) {
-    const float lod = std::clamp(std::log2(std::max(distance * sector, 1e-6f)), 0.0f, last);
-    const int level = static_cast<int>(lod);
-    steps.push_back({distance, level, lod - static_cast<float>(level)});
-    before = distance;
-    step *= s.step_factor;
-    distance += step;
-  }
-  return steps;
-}
-
-std::vector<MipmapDirection> mipmap_directions(int count) {
-  constexpr float kPi = std::numbers::pi_v<float>;
-  std::vector<MipmapDirection> directions;
-  for (int k = 0; k < count; ++k) {
-    const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(count);
-    const float width = kPi / static_cast<float>(count);
-    const float low = angle - width, high = angle + width;
-    directions.push_back({std::cos(angle), std::sin(angle), std::cos(low), std::sin(low),
-                          std::cos(high), std::sin(high)});
-  }
-  return directions;
-}
 
 namespace {
 
 class MipmapMethod final : public Method {
  public:
-  MipmapMethod(const MipmapSettings& settings, math::Rho rho)
-      : settings_(settings), rho_(std::move(rho)) {}
+  MipmapMethod(const MipmapSettings& settings, MipmapPlan plan)
+      : settings_(settings), plan_(std::move(plan)) {}
 
   view::Needs needs() const override { return {.normals = true}; }
 
@@ -60,17 +21,16 @@ class MipmapMethod final : public Method {
     context.timer.time("pyramid", [&] { build(g, context.executor); });
     MipmapFrame f;
     f.geometry = &g;
-    f.rho = &rho_;
+    f.rho = &plan_.rho;
     for (const AlignedImage<float>& level : levels_) {
       if (f.level_count == kMaxMipmapLevels) break;
       f.levels[f.level_count++] = {level.data(), level.width(), level.height(), level.stride()};
     }
-    const auto directions = mipmap_directions(settings_.directions);
     const auto steps = mipmap_steps(settings_, g.width, g.height);
-    f.directions = directions;
+    f.directions = plan_.directions;
     f.steps = steps;
     f.interpolate = settings_.pyramid == DepthPyramid::kAverage;
-    const int width = g.visible_width(), height = g.visible_height();
+    const int width = g.visible().width, height = g.visible().height;
     rows_.resize(width, height);
     Progress progress(height, context.progress);
     context.timer.time("evaluate", [&] {
@@ -120,23 +80,18 @@ class MipmapMethod final : public Method {
   }
 
   const MipmapSettings settings_;
-  const math::Rho rho_;
+  const MipmapPlan plan_;
   std::vector<AlignedImage<float>> levels_;
   AlignedImage<float> rows_;
 };
 
 }  // namespace
 
-Status check_mipmap(const MipmapSettings& settings, math::Rho* rho) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = validate(settings.falloff); !s.ok()) return s;
-  return math::make_rho(settings.falloff, rho);
-}
-
-Status make_mipmap(const MipmapSettings& settings, std::unique_ptr<Method>* method) {
-  math::Rho rho;
-  if (Status s = check_mipmap(settings, &rho); !s.ok()) return s;
-  *method = std::make_unique<MipmapMethod>(settings, std::move(rho));
+template <>
+Status make_method(const MipmapSettings& settings, int, int, std::unique_ptr<Method>* method) {
+  MipmapPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  *method = std::make_unique<MipmapMethod>(settings, std::move(plan));
   return {};
 }
 

@@ -1,16 +1,14 @@
 #include <algorithm>
 
-#include "gpu/program.h"
 #include "gpu/quads.h"
-#include "screen/mipmap/kernel.h"
+#include "screen/gpu.h"
 #include "screen/mipmap/plan.h"
 #include "shaders/mipmap.h"
 #include "shaders/mipmap_pyramid.h"
+#include "view/gpu.h"
 
-namespace obscura::vulkan {
+namespace obscura::gpu {
 namespace {
-
-constexpr int kTile = 32, kLevelsPerPass = 5;  // of mipmap_pyramid.comp
 
 struct Tables {
   Quads quads;
@@ -18,9 +16,10 @@ struct Tables {
   int level_count = 0, step_count = 0, texels = 0;  // of levels 1 and on
 };
 
-Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const FrameShape& shape) {
+Tables make_tables(const MipmapSettings& settings, const MipmapPlan& plan,
+                   const FrameShape& shape) {
   Tables t;
-  t.rho = t.quads.add_floats(rho.table);
+  t.rho = t.quads.add_floats(plan.rho.table);
   t.levels = t.quads.size();
   t.level_count = std::min(mipmap_level_count(shape.width, shape.height), kMaxMipmapLevels);
   int width = shape.width, height = shape.height;
@@ -31,7 +30,7 @@ Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const F
     height = (height + 1) / 2;
   }
   t.directions = t.quads.size();
-  for (const MipmapDirection& d : mipmap_directions(settings.directions)) {
+  for (const MipmapDirection& d : plan.directions) {
     t.quads.add(bits(d.u), bits(d.v), bits(d.low_u), bits(d.low_v));
     t.quads.add(bits(d.high_u), bits(d.high_v), 0, 0);
   }
@@ -45,48 +44,57 @@ Tables make_tables(const MipmapSettings& settings, const math::Rho& rho, const F
 
 void add_pyramid(const FrameShape& shape, const Tables& tables, bool mean, int depth, int pyramid,
                  Program* program) {
-  for (int level = 0; level + 1 < tables.level_count; level += kLevelsPerPass) {
-    program->passes.push_back(
-        {.name = "pyramid",
-         .spirv = shaders::mipmap_pyramid,
-         .constants = {mean},
-         .slots = {Slot::of(program->table_region), Slot::of(depth), Slot::of(pyramid)},
-         .width = ((shape.width - 1) >> level) + 1,
-         .height = ((shape.height - 1) >> level) + 1,
-         .group_x = kTile,
-         .group_y = kTile,
-         .push = {bits(tables.levels), bits(level), bits(tables.level_count)}});
+  namespace io = mipmap_pyramid_io;
+  for (int level = 0; level + 1 < tables.level_count; level += io::kLevelsPerPass) {
+    program->add({.name = "pyramid",
+                  .shader = shaders::mipmap_pyramid,
+                  .constants = {{io::kMean, mean}},
+                  .slots = {{io::kTablesAt, program->table_region},
+                            {io::kDepthAt, depth},
+                            {io::kPyramidAt, pyramid}},
+                  .size = {((shape.width - 1) >> level) + 1, ((shape.height - 1) >> level) + 1},
+                  .push = push_words(io::Push{
+                      .levels = tables.levels, .source = level, .count = tables.level_count})});
   }
 }
 
 }  // namespace
 
-Status make_program(const MipmapSettings& settings, const FrameShape& shape, Program* program) {
-  math::Rho rho;
-  if (Status s = check_mipmap(settings, &rho); !s.ok()) return s;
-  if (shape.directions != Directions::kNone) return unsupported("mipmap gives no directions");
-  if (shape.normal_use == NormalUse::kNone) {
-    return unsupported("mipmap needs normals; normal_use is none");
-  }
-  const Geometry g = add_geometry(shape, true, program);
-  const Tables t = make_tables(settings, rho, shape);
-  program->tables = t.quads.words();
-  program->table_region = program->add_region(program->tables.size() * sizeof(float));
+template <>
+Status make_program(const MipmapSettings& settings, const Frame& frame, Program* program) {
+  namespace io = mipmap_io;
+  MipmapPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  const math::Rho& rho = plan.rho;
+  if (Status s = check({.method = "mipmap", .normals = true}, frame.shape); !s.ok()) return s;
+  const Geometry g = add_geometry(frame, true, program);
+  const Tables t = make_tables(settings, plan, frame.shape);
+  program->add_table(t.quads.words());
   const int pyramid = program->add_region(std::max(t.texels, 1) * sizeof(float));
   const bool mean = settings.pyramid == DepthPyramid::kAverage;
-  add_pyramid(shape, t, mean, g.depth, pyramid, program);
-  program->passes.push_back(
-      {.name = "evaluate",
-       .spirv = shaders::mipmap,
-       .constants = {static_cast<std::uint32_t>(rho.kind), bits(settings.directions), mean},
-       .slots = {Slot::of(program->table_region), Slot::of(g.depth), Slot::of(pyramid),
-                 Slot::of(g.normals), Slot::image(Slot::kVisibilityImage)},
-       .width = visible_width(shape),
-       .height = visible_height(shape),
-       .push = {bits(rho.radius), bits(rho.inverse_radius), bits(rho.entries_per_length),
-                bits(rho.last_entry), bits(t.rho), bits(t.levels), bits(t.directions),
-                bits(t.steps), bits(t.step_count), bits(t.level_count)}});
+  add_pyramid(frame.shape, t, mean, g.depth, pyramid, program);
+  program->add({.name = "evaluate",
+                .shader = shaders::mipmap,
+                .constants = {{io::kFalloff, static_cast<int>(rho.kind)},
+                              {io::kDirections, settings.directions},
+                              {io::kInterpolate, mean}},
+                .slots = {{io::kTablesAt, program->table_region},
+                          {io::kDepthAt, g.depth},
+                          {io::kPyramidAt, pyramid},
+                          {io::kNormalsAt, g.normals},
+                          {io::kVisibilityResultAt, frame.results.visibility}},
+                .size = frame.visible(),
+                .push = push_words(io::Push{.rho_radius = rho.radius,
+                                            .inverse_radius = rho.inverse_radius,
+                                            .entries_per_length = rho.entries_per_length,
+                                            .last_entry = rho.last_entry,
+                                            .rho_start = t.rho,
+                                            .levels = t.levels,
+                                            .directions = t.directions,
+                                            .steps = t.steps,
+                                            .step_count = t.step_count,
+                                            .level_count = t.level_count})});
   return {};
 }
 
-}  // namespace obscura::vulkan
+}  // namespace obscura::gpu

@@ -2,10 +2,8 @@
 #define OBSCURA_SRC_SCREEN_MIPMAP_KERNEL_H_
 
 #include <span>
-#include <vector>
 
 #include "math/falloff.h"
-#include "obscura/mipmap.h"
 #include "view/geometry.h"
 
 namespace obscura {
@@ -24,16 +22,11 @@ struct MipmapStep {
   int level;
   float blend;  // share of level + 1
 };
-std::vector<MipmapStep> mipmap_steps(const MipmapSettings& settings, int width, int height);
 
 // Unit vectors in the image of a direction's sector: its middle and its edges.
 struct MipmapDirection {
   float u, v, low_u, low_v, high_u, high_v;
 };
-std::vector<MipmapDirection> mipmap_directions(int count);
-
-// Levels of the pyramid down to a texel a side.
-int mipmap_level_count(int width, int height);
 
 struct MipmapFrame {
   const view::Geometry* geometry = nullptr;

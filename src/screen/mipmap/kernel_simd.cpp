@@ -64,7 +64,7 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
   const V perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
   const float last_u = static_cast<float>(g.width) - 0.5f, last_v = g.height - 0.5f;
   constexpr float kPi = std::numbers::pi_v<float>;
-  for (int x = 0; x < g.visible_width(); x += static_cast<int>(hn::Lanes(d))) {
+  for (int x = 0; x < g.visible().width; x += static_cast<int>(hn::Lanes(d))) {
     const int at = x + g.guard_band.left;
     const V depth = hn::LoadU(d, g.depth.row(y) + at);
     const auto surface = hn::Lt(depth, hn::Inf(d));

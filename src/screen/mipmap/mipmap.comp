@@ -4,25 +4,12 @@
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
-#define PASS_CONSTANTS                                  \
-  float rho_radius, inverse_radius, entries_per_length; \
-  int last_entry, rho_start;                            \
-  int levels, directions, steps, step_count, level_count;
+#include "screen/mipmap/mipmap_io.h"
+#include "gpu/results.glsl"
 #include "gpu/view.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kFalloff = 1;  // FalloffKind
-layout(constant_id = 1) const int kDirections = 16;
-layout(constant_id = 2) const bool kInterpolate = true;
 const bool kChord = false;
 const int kSums = 0;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) readonly buffer Depth { float depth[]; };
-layout(binding = 2) readonly buffer Pyramid { float pyramid[]; };
-layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-#define VISIBILITY_BINDING 4
-#include "gpu/results.glsl"
 
 float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
 

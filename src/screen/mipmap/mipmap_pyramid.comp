@@ -2,16 +2,9 @@
 // them in shared memory. Means or minima of the finite depths among four; 0 where none is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define PASS_CONSTANTS int levels, source, count;
+#include "screen/mipmap/mipmap_pyramid_io.h"
 #include "gpu/view.glsl"
 
-const int kTile = 32, kThreads = 256;
-layout(local_size_x = 256) in;
-layout(constant_id = 0) const bool kMean = true;
-
-layout(binding = 0) readonly buffer Tables { uvec4 quads[]; };
-layout(binding = 1) readonly buffer Depth { float depth[]; };
-layout(binding = 2) buffer Pyramid { float pyramid[]; };
 
 #define WRITES_PYRAMID
 #include "screen/mipmap/mipmap.glsl"
@@ -42,7 +35,7 @@ void main() {
     tiles[0][i] = texel_of(view.source, p);
   }
   int from = 0;
-  for (int k = 1; k <= 5; ++k) {
+  for (int k = 1; k <= kLevelsPerPass; ++k) {
     barrier();
     const int size = kTile >> k, level = view.source + k;
     if (level < view.count) {

@@ -5,29 +5,13 @@
 #include <limits>
 
 #include "obscura/cone.h"
+#include "screen/method.h"
 #include "screen/reference/depth_scene.h"
 #include "screen/reference/pixel_tracer.h"
 #include "screen/reference/subset.h"
 
 namespace obscura {
 namespace {
-
-// The distance beyond which rho is 0, or less than half the last place of 1.
-float reach_of(const Falloff& falloff) {
-  switch (falloff.kind) {
-    case FalloffKind::kConstant:
-    case FalloffKind::kQuadratic:
-    case FalloffKind::kTable:
-      return falloff.radius;
-    case FalloffKind::kExponential:
-      return 17 * falloff.radius;
-    case FalloffKind::kInverseSquare:
-      return 5000 * falloff.radius;
-    case FalloffKind::kFunction:
-      break;
-  }
-  return std::numeric_limits<float>::infinity();
-}
 
 void write(const ImageView<float>& view, Pixel p, double value) {
   if (!view.empty()) view(p.x, p.y) = static_cast<float>(value);
@@ -41,8 +25,8 @@ void write(const VectorView<float>& view, Pixel p, const double* v, double scale
 
 class ReferenceMethod final : public Method {
  public:
-  ReferenceMethod(const ReferenceSettings& settings, math::Rho rho)
-      : settings_(settings), rho_(std::move(rho)) {}
+  ReferenceMethod(const ReferenceSettings& settings, ReferencePlan plan)
+      : settings_(settings), plan_(std::move(plan)) {}
 
   view::Needs needs() const override {
     view::Needs needs{.normals = true};
@@ -57,13 +41,13 @@ class ReferenceMethod final : public Method {
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     scene_.build(g, settings_.occluder, context.executor);
     TraceScene scene = scene_.trace();
-    scene.max_distance = reach_of(settings_.falloff);
+    scene.max_distance = plan_.reach;
     scene.beyond_border = settings_.beyond_border > 0 ? settings_.beyond_border
                                                       : std::numeric_limits<float>::infinity();
     tracers_.resize(context.executor.thread_count());
     const bool plain = !outputs.visibility.empty() || !outputs.standard_error.empty();
     const bool uniform = settings_.weighting == RayWeighting::kUniform;
-    PixelTracer::Frame frame{&g, &scene, &rho_, &settings_, false, false, false};
+    PixelTracer::Frame frame{&g, &scene, &plan_.rho, &settings_, false, false, false};
     frame.radiance = !outputs.radiance.empty();
     frame.cosine = (plain && !uniform) || !outputs.cosine_integral.empty() || frame.radiance;
     frame.uniform = (plain && uniform) || !outputs.bent_normal.empty() ||
@@ -131,7 +115,7 @@ class ReferenceMethod final : public Method {
   }
 
   const ReferenceSettings settings_;
-  const math::Rho rho_;
+  const ReferencePlan plan_;
   const std::function<bool(double)> no_callback_;
   DepthScene scene_;
   std::vector<std::unique_ptr<PixelTracer>> tracers_;
@@ -140,17 +124,11 @@ class ReferenceMethod final : public Method {
 
 }  // namespace
 
-Status validate(const ReferenceSettings& settings) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = validate(settings.falloff); !s.ok()) return s;
-  return validate(settings.occluder);
-}
-
-Status make_reference(const ReferenceSettings& settings, std::unique_ptr<Method>* method) {
-  if (Status s = validate(settings); !s.ok()) return s;
-  math::Rho rho;
-  if (Status s = math::make_rho(settings.falloff, &rho); !s.ok()) return s;
-  *method = std::make_unique<ReferenceMethod>(settings, std::move(rho));
+template <>
+Status make_method(const ReferenceSettings& settings, int, int, std::unique_ptr<Method>* method) {
+  ReferencePlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  *method = std::make_unique<ReferenceMethod>(settings, std::move(plan));
   return {};
 }
 

@@ -1,15 +1,19 @@
 #ifndef OBSCURA_SRC_SCREEN_REFERENCE_PLAN_H_
 #define OBSCURA_SRC_SCREEN_REFERENCE_PLAN_H_
 
-#include <memory>
-
+#include "math/falloff.h"
 #include "obscura/reference.h"
-#include "screen/method.h"
 
 namespace obscura {
 
-// The ray-traced reference; settings and contract: obscura/reference.h.
-Status make_reference(const ReferenceSettings& settings, std::unique_ptr<Method>* method);
+// The ray-traced reference; settings and guarantees: obscura/reference.h.
+struct ReferencePlan {
+  math::Rho rho;
+  float reach = 0;  // world units; rho is 0 beyond, or less than half the last place of 1
+};
+
+// Checks the settings and prepares what does not change from frame to frame.
+Status make_plan(const ReferenceSettings& settings, ReferencePlan* plan);
 
 }  // namespace obscura
 

@@ -27,8 +27,8 @@ bool Subset::has_surface(int x, int y) const {
 
 void Subset::choose(std::vector<Pixel>* pixels) const {
   pixels->clear();
-  for (int y = every_ / 2; y < g_.visible_height(); y += every_) {
-    for (int x = every_ / 2; x < g_.visible_width(); x += every_) {
+  for (int y = every_ / 2; y < g_.visible().height; y += every_) {
+    for (int x = every_ / 2; x < g_.visible().width; x += every_) {
       if (has_surface(x, y)) pixels->push_back({x, y});
     }
   }
@@ -37,8 +37,8 @@ void Subset::choose(std::vector<Pixel>* pixels) const {
 void Subset::fill_with_nan(const Outputs& outputs, Executor& executor) const {
   if (every_ == 1) return;
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  executor.parallel_for(g_.visible_height(), [&](int y, int) {
-    for (int x = 0; x < g_.visible_width(); ++x) {
+  executor.parallel_for(g_.visible().height, [&](int y, int) {
+    for (int x = 0; x < g_.visible().width; ++x) {
       if (chosen(x, y) || !has_surface(x, y)) continue;
       each_scalar(outputs, [&](const ImageView<float>& v) { v(x, y) = kNan; });
       each_vector(outputs, [&](const VectorView<float>& v, bool) {
@@ -58,7 +58,7 @@ Subset::Blend Subset::neighbours(int x, int y) const {
   float sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int i = x0 + (k & 1) * every_, j = y0 + (k >> 1) * every_;
-    if (i < 0 || j < 0 || i >= g_.visible_width() || j >= g_.visible_height()) continue;
+    if (i < 0 || j < 0 || i >= g_.visible().width || j >= g_.visible().height) continue;
     if (!has_surface(i, j)) continue;
     const float step = static_cast<float>(every_);
     const float near = (1 - std::abs(static_cast<float>(x - i)) / step) *
@@ -80,9 +80,9 @@ void Subset::interpolate(const Outputs& outputs, Executor& executor,
                          std::vector<Pixel>* orphans) const {
   orphans->clear();
   if (every_ == 1) return;
-  std::vector<std::vector<Pixel>> by_row(g_.visible_height());
-  executor.parallel_for(g_.visible_height(), [&](int y, int) {
-    for (int x = 0; x < g_.visible_width(); ++x) {
+  std::vector<std::vector<Pixel>> by_row(g_.visible().height);
+  executor.parallel_for(g_.visible().height, [&](int y, int) {
+    for (int x = 0; x < g_.visible().width; ++x) {
       if (chosen(x, y) || !has_surface(x, y)) continue;
       const Blend b = neighbours(x, y);
       if (b.count == 0) {

@@ -17,7 +17,7 @@ class Blurred final : public Method {
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return method_->run(g, outputs, context);
-    filter_.set_size(g.visible_width(), g.visible_height());
+    filter_.set_size(g.visible().width, g.visible().height);
     Outputs inner = outputs;
     inner.visibility = filter_.input();
     if (Status s = method_->run(g, inner, context); !s.ok()) return s;

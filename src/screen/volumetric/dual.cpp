@@ -18,7 +18,7 @@ class Dual final : public Method {
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};
-    const int width = g.visible_width(), height = g.visible_height();
+    const int width = g.visible().width, height = g.visible().height;
     const ImageView<float>& out = outputs.visibility;
     // Each is half of the work.
     const std::function<bool(double)> halves[] = {

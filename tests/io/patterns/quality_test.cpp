@@ -5,8 +5,8 @@
 namespace obscura::tools {
 namespace {
 
-// One line through the middle of the sphere: half-spaces and steps by hand would be integrals of
-// their own; that more samples are better, and known sets worse than ours, is what counts.
+// Checks the order only: more samples have a smaller error, and well-known point sets a larger one
+// than ours.
 TEST(PatternQuality, MoreSamplesAreBetter) {
   EXPECT_LT(quality(disk_pattern(16, false)).both(), quality(disk_pattern(4, false)).both() / 2);
   EXPECT_LT(quality(ball_pattern(32)).both(), quality(ball_pattern(8)).both() / 2);
@@ -31,7 +31,7 @@ TEST(PatternQuality, OursWinFrom3To16) {
   }
 }
 
-// The measure itself: weights that are wrong are punished.
+// The measure itself: wrong weights give a larger error.
 TEST(PatternQuality, WrongWeightsAreWorse) {
   std::vector<DiskSample> samples(disk_pattern(9, false).begin(), disk_pattern(9, false).end());
   const double right = quality(std::span<const DiskSample>(samples)).both();

@@ -90,7 +90,7 @@ Deviation deviation(const Rendering& r, const std::vector<float>& values, Closed
   return d;
 }
 
-// The bars that the closed forms must reach with 4,096 rays.
+// The thresholds for closed forms with 4,096 rays.
 constexpr double kBias = 0.001, kRms = 0.005;
 
 void expect_close(const Deviation& d, const std::string& what) {

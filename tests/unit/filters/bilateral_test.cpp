@@ -26,7 +26,7 @@ view::Geometry geometry_of(int width, int height, float (*depth)(int, int), Guar
 }
 
 std::vector<float> blur(const view::Geometry& g, float (*value)(int, int), float edge) {
-  const int width = g.visible_width(), height = g.visible_height();
+  const int width = g.visible().width, height = g.visible().height;
   BilateralFilter filter;
   filter.resize(g.width, g.height);
   filter.set_size(width, height);

@@ -155,8 +155,8 @@ TEST(Environment, BitsDoNotDependOnThreads) {
   const auto view = VectorView<float>::interleaved(pixels.data(), 128, 64);
   Environment a, b;
   const auto one = make_executor(1), three = make_executor(3);
-  ASSERT_TRUE(Environment::from_lat_long(view, &a, nullptr, one.get()).ok());
-  ASSERT_TRUE(Environment::from_lat_long(view, &b, nullptr, three.get()).ok());
+  ASSERT_TRUE(Environment::from_lat_long(view, &a, nullptr, {.executor = one.get()}).ok());
+  ASSERT_TRUE(Environment::from_lat_long(view, &b, nullptr, {.executor = three.get()}).ok());
   for (const Direction& d : directions()) EXPECT_EQ(a.radiance(d), b.radiance(d));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<float> lit(const DepthField& field, const Environment& environment,
                        const ImportanceSettings& settings, int threads = 1) {
-  const int w = field.visible_width(), h = field.visible_height();
+  const int w = field.visible().width, h = field.visible().height;
   std::vector<float> rgb(std::size_t{3} * w * h, -1.0f);
   const auto executor = make_executor(threads);
   RunOptions options;

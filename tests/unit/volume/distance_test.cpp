@@ -27,7 +27,7 @@ Grid swept(const Grid& f, DistanceSettings settings = {}, int threads = 1) {
   settings.solid = SolidSide::kBelow;
   Grid d(f.size, f.spacing);
   auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   const Status s = sweep_distance(view_of(f), settings, out_of(d), run);
   EXPECT_TRUE(s.ok()) << s.message();
@@ -238,7 +238,7 @@ TEST(Distance, MistakesAreNamedAndOutputsUntouched) {
 TEST(Distance, ProgressMayCancel) {
   const Grid f = blobs({12, 12, 12});
   Grid d(f.size);
-  VolumeRun run;
+  RunOptions run;
   run.progress = [](double) { return false; };
   DistanceSettings s;
   s.solid = SolidSide::kBelow;

@@ -26,7 +26,7 @@ constexpr Transport kBetter[] = {Transport::kFast, Transport::kBalanced, Transpo
 VisibilityField field_of(const Grid& d, OcclusionSettings settings = {}, int threads = 1) {
   VisibilityField field;
   auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   const Status s = sweep_occlusion(view_of(d), settings, &field, run);
   EXPECT_TRUE(s.ok()) << s.message();

@@ -12,7 +12,7 @@ namespace {
 
 VolumeRange range_of(const VolumeView& v, int threads) {
   const auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   VolumeRange range;
   const Status s = volume_range(v, &range, run);

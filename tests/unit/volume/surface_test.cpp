@@ -62,7 +62,7 @@ struct Pictures {
 Status render(const Ball& ball, const SurfaceCamera& camera, int samples, Pictures* pictures,
               const SurfaceShader& shader = {}, int threads = 2) {
   const auto executor = make_executor(threads);
-  VolumeRun run;
+  RunOptions run;
   run.executor = executor.get();
   return render_surface(ball.scene(), camera, {samples}, shader, pictures->outputs(), run);
 }
@@ -267,7 +267,7 @@ TEST(Surface, ShaderFailuresAndCancelling) {
     return invalid_input("no light");
   };
   EXPECT_EQ(render(ball, from_above(), 1, &p, fails).message(), "no light");
-  VolumeRun run;
+  RunOptions run;
   run.progress = [](double) { return false; };
   EXPECT_EQ(render_surface(ball.scene(), from_above(), {}, {}, p.outputs(), run).code(),
             StatusCode::kCancelled);

@@ -5,33 +5,16 @@
 #include "math/sphere_line_leaf.h"
 #include "screen/volumetric/area/area_leaf.h"
 #include "view/taps_leaf.h"
-// Where the samples start in the tables, and the levels; how many levels there are.
-#define PASS_CONSTANTS int pattern, levels, level_count;
+#include "screen/volumetric/area/area_io.h"
 #include "gpu/view.glsl"
 #include "screen/volumetric/area/moments.glsl"
 #include "view/taps.glsl"
-#include "gpu/visibility.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kSamples = 1;
-layout(constant_id = 3) const bool kNormals = true;
-layout(constant_id = 4) const bool kRotate = true;
-layout(constant_id = 5) const bool kThickness = false;
-layout(constant_id = 6) const bool kQuadratic = false;
-layout(constant_id = 7) const int kNoise = 64;
-layout(constant_id = 8) const int kFullLevels = 2;
-
-layout(binding = 2) readonly buffer Depth { float depth[]; };
-layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-// Per pixel of the tile of reflections x, y; per level where it starts (bits) and its kernel's
-// deviation in pixels; per sample x, y, lateral, extent, half, weight, level.
-layout(binding = 4) readonly buffer Tables { float tables[]; };
-layout(binding = 5) readonly buffer Moments { uvec2 moments[]; };
+#include "gpu/visibility_target.glsl"
 
 float rho_integral(float z, float lateral) { return kQuadratic ? quadratic_line(z, lateral) : z; }
 
-// Section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma. Integral of rho times
-// it over [-zs, zs].
+// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma.
+// Integral of rho times visibility over [-zs, zs].
 float integral(float mu, float sigma, float zs, float half_line, float lateral) {
   const float end = mu + sigma;
   const float lo = clamp(mu - sigma, -zs, zs), hi = clamp(end, -zs, zs);

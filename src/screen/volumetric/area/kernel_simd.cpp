@@ -36,8 +36,9 @@ HWY_INLINE V Ramp(const QuadraticRho& rho, V lo, V hi, V end) {
   return leaf::quadratic_ramp(lo, hi, end, rho(lo), rho(hi), rho.lateral);
 }
 
-// Section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma, as a z + b with
-// a = -1/(2 sigma), b = (mu + sigma)/(2 sigma). Integral of rho times it over [-zs, zs].
+// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma,
+// as a z + b with a = -1/(2 sigma), b = (mu + sigma)/(2 sigma). Integral of rho times it over [-zs,
+// zs].
 template <class Rho>
 HWY_INLINE V Integral(const Rho& rho, V mu, V sigma, V zs, V half) {
   const V minus_zs = hn::Neg(zs), start = hn::Sub(mu, sigma), end = hn::Add(mu, sigma);
@@ -261,7 +262,7 @@ HWY_INLINE V SumTaps(const AreaFrame& f, V z, int v, const Block<kNormals, kThic
       line = hn::Min(line, bound);
     }
     if constexpr (kThickness) {
-      // And what is free again behind the occluder, section 4.3.
+      // And what is free again behind the occluder (Loos and Sloan 2010, section 4.3).
       const V back = hn::Min(hn::Add(mu, hn::Load(d, block.behind[v][i])), far);
       line = hn::Add(line, hn::Sub(bound, hn::Min(Integral(rho, back, sigma, zs, half), bound)));
     }

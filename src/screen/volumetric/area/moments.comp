@@ -6,20 +6,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "screen/volumetric/area/moments_leaf.h"
-// Of the level before: where it is, its row's length, and 2 where every other texel is kept. Of this
-// one: where it goes, its size, and the distance of taps.
-#define PASS_CONSTANTS int from, from_width, keep, to, to_width, to_height, tap_step;
+#include "screen/volumetric/area/moments_io.h"
 #include "gpu/view.glsl"
 #include "screen/volumetric/area/moments.glsl"
 
-const int kThreads = 128;
-layout(local_size_x = 128) in;
-layout(constant_id = 0) const bool kFirst = true;  // from depth
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) buffer Moments { uvec2 moments[]; };
-
-const int kTile = 16, kReach = 4, kSide = kTile + 2 * kReach;
+const int kReach = 4, kSide = kTile + 2 * kReach;
 const float kWeights[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 
 // Share of surface, mean and variance.

@@ -1,6 +1,6 @@
 // A texel of the pyramid of moments: the mean's bits, then the deviation's, their lowest 12 replaced
 // by the share of surface. Levels are made from the texels of levels, so there are more bits of share
-// than the processor's, whose levels are made from floats.
+// than the CPU's, whose levels are made from floats.
 const uint kShareBits = 12u;
 const uint kFullShare = (1u << kShareBits) - 1u;
 

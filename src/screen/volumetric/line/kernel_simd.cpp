@@ -64,7 +64,8 @@ HWY_INLINE void FindTaps(const LineFrame& f, Receivers r, Vec3 n, Vec3 noise, in
   const V yc = hn::Mul(r.reach_y, noise.x), ys = hn::Mul(r.reach_y, noise.y);
   for (int i = 0; i < f.samples; ++i) {
     const V sx = hn::Set(d, f.x[i]), sy = hn::Set(d, f.y[i]);
-    // Reflected about a random direction (section 4.5). The integer is rounded to once, at the end.
+    // Reflected about a random direction (Loos and Sloan 2010, section 4.5). The integer is rounded
+    // to once, at the end.
     V du, dv;
     if constexpr (kRotate || kNormals) {
       du = kRotate ? hn::MulAdd(xc, sx, hn::MulAdd(xs, sy, center_x))
@@ -114,11 +115,11 @@ HWY_INLINE V SumTaps(const LineFrame& f, int v, const Block<kNormals, kThickness
     const V zu = kNormals ? hn::Load(d, block.plane[kNormals ? v : 0][i]) : zs;
     V offset = hn::Sub(tap, center);
     if (Rho::kQuadratic) offset = hn::Mul(offset, per_unit);
-    // L = max(min(zs, d, zp) + zs, 0), section 4.1; the half from -zs to 0 is in `half`, or,
-    // without normals, in the 0.5 above.
+    // L = max(min(zs, d, zp) + zs, 0) (Loos and Sloan 2010, section 4.1); the half from -zs to 0 is
+    // in `half`, or, without normals, in the 0.5 above.
     V line = rho(hn::Max(hn::Min(offset, zu), minus_zs));
     if constexpr (kThickness) {
-      // And what is free again behind the occluder, section 4.3.
+      // And what is free again behind the occluder (Loos and Sloan 2010, section 4.3).
       const V back = hn::Add(offset, hn::Load(d, block.behind[kThickness ? v : 0][i]));
       line = hn::Add(line, hn::Sub(rho(zu), rho(hn::Max(hn::Min(back, zu), minus_zs))));
     }

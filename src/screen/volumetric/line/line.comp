@@ -5,25 +5,10 @@
 #include "math/sphere_line_leaf.h"
 #include "screen/volumetric/line/line_leaf.h"
 #include "view/taps_leaf.h"
-#define PASS_CONSTANTS int pattern;  // where it starts in the tables
+#include "screen/volumetric/line/line_io.h"
 #include "gpu/view.glsl"
 #include "view/taps.glsl"
-#include "gpu/visibility.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kSamples = 9;
-layout(constant_id = 3) const bool kNormals = true;
-layout(constant_id = 4) const bool kRotate = true;
-layout(constant_id = 5) const bool kThickness = false;
-layout(constant_id = 6) const bool kQuadratic = false;
-layout(constant_id = 7) const bool kTangent = false;
-layout(constant_id = 8) const int kNoise = 64;
-
-layout(binding = 2) readonly buffer Depth { float depth[]; };
-layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-// Per pixel of the tile of reflections x, y; per sample of the pattern x, y, lateral, extent, half,
-// weight.
-layout(binding = 4) readonly buffer Tables { float tables[]; };
+#include "gpu/visibility_target.glsl"
 
 const float kMaxThickness = 1e30;
 

@@ -1,17 +1,14 @@
-#include "screen/volumetric/point/plan.h"
-
 #include "core/reflection_noise.h"
 #include "screen/rows.h"
-#include "screen/volumetric/point/kernel.h"
-#include "screen/volumetric/volumetric.h"
+#include "screen/volumetric/point/plan.h"
+#include "screen/volumetric/point/screen_pattern.h"
 
 namespace obscura {
 namespace {
 
 class PointMethod final : public Method {
  public:
-  PointMethod(const PointSettings& settings, std::span<const BallSample> pattern)
-      : frame_(point_frame(settings, pattern)) {
+  PointMethod(const PointSettings& settings, const PointFrame& frame) : frame_(frame) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed, true);
   }
 
@@ -30,41 +27,29 @@ class PointMethod final : public Method {
   }
 
  private:
-  PointFrame frame_;
+  const PointFrame frame_;
   ReflectionNoise noise_;
 };
 
 }  // namespace
 
-PointFrame point_frame(const PointSettings& settings, std::span<const BallSample> pattern) {
-  PointFrame f;
-  f.view.radius = view::tap_radius(settings.falloff.radius);
-  if (settings.occluder.kind == OccluderKind::kThickness) f.thickness = settings.occluder.thickness;
-  const bool quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-  auto weight = [&](const BallSample& s) {
-    return quadratic ? s.weight_quadratic : s.weight_constant;
-  };
-  double sum = 0;
-  for (const BallSample& s : pattern) sum += weight(s);
-  f.samples = static_cast<int>(pattern.size());
-  for (int i = 0; i < f.samples; ++i) {
-    f.x[i] = pattern[i].x;
-    f.y[i] = pattern[i].y;
-    f.z[i] = pattern[i].z;
-    f.weight[i] = static_cast<float>(weight(pattern[i]) / sum);
+template <>
+Status make_method(const PointSettings& settings, int width, int height,
+                   std::unique_ptr<Method>* method) {
+  PointPlan plan;
+  if (Status s = make_plan(settings, &plan); !s.ok()) return s;
+  if (settings.pattern == PointPattern::kBall) {
+    auto make = [&](const PointFrame& frame) {
+      return std::make_unique<PointMethod>(settings, frame);
+    };
+    *method = make_spheres(settings, plan.ball, settings.blur, width, height, make);
+    return {};
   }
-  return f;
-}
-
-Status make_point(const PointSettings& settings, std::unique_ptr<Method>* method) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  return make_point_with(settings, ball_pattern(settings.samples), method);
-}
-
-Status make_point_with(const PointSettings& settings, std::span<const BallSample> pattern,
-                       std::unique_ptr<Method>* method) {
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  *method = std::make_unique<PointMethod>(settings, pattern);
+  // The screen pattern blurs by itself: directions go the same way as visibility.
+  auto make = [&](const ScreenPatternFrame& frame) {
+    return make_screen_point(settings, frame, width, height);
+  };
+  *method = make_spheres(settings, plan.screen, false, width, height, make);
   return {};
 }
 

@@ -46,13 +46,13 @@ HWY_INLINE void FindTaps(const PointFrame& f, Receivers r, Vec3 n, Vec3 noise, i
   for (int i = 0; i < f.samples; ++i) {
     Vec3 s = {hn::Set(d, f.x[i]), hn::Set(d, f.y[i]), hn::Set(d, f.z[i])};
     if constexpr (kRotate) {
-      // Reflected in a random plane through the receiver (section 4.5).
+      // Reflected in a random plane through the receiver (Loos and Sloan 2010, section 4.5).
       const V along = Dot(s, noise);
       s = Minus(s, hn::Add(along, along), noise);
     }
     V height = zero;
     if constexpr (kPlane) {
-      // And to the front of the tangent plane (section 4.4).
+      // And to the front of the tangent plane (Loos and Sloan 2010, section 4.4).
       height = Dot(s, n);
       const V below = hn::Min(height, zero);
       s = Minus(s, hn::Add(below, below), n);

@@ -3,22 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "view/taps_leaf.h"
-#define PASS_CONSTANTS int pattern;  // where it starts in the tables
+#include "screen/volumetric/point/point_io.h"
 #include "gpu/view.glsl"
 #include "view/taps.glsl"
-#include "gpu/visibility.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const int kSamples = 12;
-layout(constant_id = 3) const bool kNormals = true;
-layout(constant_id = 4) const bool kRotate = true;
-layout(constant_id = 5) const bool kThickness = false;
-layout(constant_id = 6) const int kNoise = 64;
-
-layout(binding = 2) readonly buffer Depth { float depth[]; };
-layout(binding = 3) readonly buffer Normals { vec4 normals[]; };
-// Per pixel of the tile of reflections x, y, z; per sample of the pattern x, y, z, weight.
-layout(binding = 4) readonly buffer Tables { float tables[]; };
+#include "gpu/visibility_target.glsl"
 
 // Whether a surface at this depth offset lies in front of the sample.
 bool in_front(float at, float slope, float level) { return (at * slope - level) * slope < 0.0; }

@@ -3,25 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "view/taps_leaf.h"
-// Where the samples start in the tables.
-#define PASS_CONSTANTS int pattern; float angle_grain;
+#include "screen/volumetric/point/screen_pattern_io.h"
 #include "gpu/view.glsl"
 #include "view/taps.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kSamples = 12;
-layout(constant_id = 1) const bool kNormals = true;
-layout(constant_id = 2) const bool kRotate = true;
-layout(constant_id = 3) const bool kQuadratic = false;
-layout(constant_id = 4) const bool kDirections = false;
-layout(constant_id = 5) const int kNoise = 64;
-
-layout(binding = 0) readonly buffer Depth { float depth[]; };
-layout(binding = 1) readonly buffer Normals { vec4 normals[]; };
-// Per pixel of the tile of reflections x, y; per sample x, y, weight.
-layout(binding = 2) readonly buffer Tables { float tables[]; };
-layout(binding = 3) writeonly buffer Open { float open_sums[]; };
-layout(binding = 4) writeonly buffer Directions { vec4 sums[]; };
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);

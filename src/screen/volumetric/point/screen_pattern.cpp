@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "core/reflection_noise.h"
-#include "core/text.h"
 #include "filters/interleaved/interleaved.h"
-#include "screen/volumetric/point/screen_pattern_kernel.h"
-#include "screen/volumetric/volumetric.h"
 
 namespace obscura {
 namespace {
@@ -42,7 +39,7 @@ class ScreenPointMethod final : public Method {
     if (cancelled) return {StatusCode::kCancelled, "stopped by the caller"};
     context.timer.time("blur", [&] {
       sums_.resolve(g,
-                    {.sums = directional::Sums::kUniform,
+                    {.sums = interleaved::Sums::kUniform,
                      .directions = directions,
                      .interleave = settings_.blur ? kScreenPatternInterleave : 1,
                      .edge = 0.5f * frame_.view.radius,
@@ -55,15 +52,15 @@ class ScreenPointMethod final : public Method {
  private:
   // False: stopped by the caller.
   bool sample(const view::Geometry& g, bool directions, const RunContext& context) {
-    const int width = g.visible_width(), height = g.visible_height();
-    const int channels = directions ? directional::kChannels : 1;
+    const int width = g.visible().width, height = g.visible().height;
+    const int channels = directions ? interleaved::kChannels : 1;
     Progress progress(height, context.progress);
     const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
     context.executor.parallel_for(tasks, [&](int task, int) {
       if (progress.cancelled()) return;
       const int first = task * kRowsPerTask, end = std::min(height, first + kRowsPerTask);
       for (int y = first; y < end; ++y) {
-        float* out[directional::kChannels] = {};
+        float* out[interleaved::kChannels] = {};
         for (int c = 0; c < channels; ++c) out[c] = sums_.row(c, y);
         screen_pattern_row(frame_, y, width, out);
         sums_.close_row(channels, width, y);
@@ -76,43 +73,14 @@ class ScreenPointMethod final : public Method {
   const PointSettings settings_;
   ScreenPatternFrame frame_;
   ReflectionNoise noise_;
-  directional::InterleavedSums sums_;
+  interleaved::InterleavedSums sums_;
 };
 
 }  // namespace
 
-Status make_screen_pattern_frame(const PointSettings& settings, ScreenPatternFrame* frame) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_volumetric(settings.falloff, settings.occluder); !s.ok()) return s;
-  if (settings.samples > kMaxDiskSamples) {
-    return invalid_argument(text("samples is ", settings.samples,
-                                 "; the screen pattern has sizes in [1, ", kMaxDiskSamples, "]"));
-  }
-  if (settings.occluder.kind != OccluderKind::kSolid) {
-    return invalid_argument(
-        "occluder is thickness; the screen pattern looks at surface points only and takes solid");
-  }
-  ScreenPatternFrame& f = *frame;
-  f.view.radius = view::tap_radius(settings.falloff.radius);
-  f.quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-  const auto pattern = disk_pattern(settings.samples, false);
-  double sum = 0;
-  for (const DiskSample& s : pattern) sum += s.weight_constant;
-  f.samples = static_cast<int>(pattern.size());
-  for (int i = 0; i < f.samples; ++i) {
-    f.x[i] = pattern[i].x;
-    f.y[i] = pattern[i].y;
-    f.weight[i] = static_cast<float>(pattern[i].weight_constant / sum);
-  }
-  return {};
-}
-
-Status make_screen_point(const PointSettings& settings, int width, int height,
-                         std::unique_ptr<Method>* method) {
-  ScreenPatternFrame frame;
-  if (Status s = make_screen_pattern_frame(settings, &frame); !s.ok()) return s;
-  *method = std::make_unique<ScreenPointMethod>(settings, frame, width, height);
-  return {};
+std::unique_ptr<Method> make_screen_point(const PointSettings& settings,
+                                          const ScreenPatternFrame& frame, int width, int height) {
+  return std::make_unique<ScreenPointMethod>(settings, frame, width, height);
 }
 
 }  // namespace obscura

@@ -5,25 +5,21 @@
 
 #include "obscura/point.h"
 #include "screen/method.h"
+#include "screen/volumetric/point/screen_pattern_kernel.h"
 
 namespace obscura {
-
-struct ScreenPatternFrame;
 
 // Blocks of so many pixels see all turns of the pattern (core/reflection_noise.h).
 inline constexpr int kScreenPatternInterleave = 4;
 
-// Point samples on the screen (PointPattern::kScreen), with their own blur if settings.blur:
-// neighbours whose patterns differ are put together as in directional/interleaved.h. `width` x
-// `height` is the whole depth image. Taps are as in point.h.
+// On the CPU: point samples on the screen (PointPattern::kScreen) of one sphere, with their
+// own blur if settings.blur: neighbours whose patterns differ are put together as in
+// filters/interleaved. `width` x `height` is the whole depth image.
 //
 // Directions: the surface point of each sample that occludes tells the direction that is lost, so
 // that mean V w = n/2 - sum of the occluding samples' weights times the directions to their points.
-Status make_screen_point(const PointSettings& settings, int width, int height,
-                         std::unique_ptr<Method>* method);
-
-// What all frames have in common: the pattern in the units that kernels want, on any device.
-Status make_screen_pattern_frame(const PointSettings& settings, ScreenPatternFrame* frame);
+std::unique_ptr<Method> make_screen_point(const PointSettings& settings,
+                                          const ScreenPatternFrame& frame, int width, int height);
 
 }  // namespace obscura
 

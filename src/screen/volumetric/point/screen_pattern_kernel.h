@@ -20,10 +20,10 @@ struct ScreenPatternFrame {
   float x[kMaxDiskSamples] = {}, y[kMaxDiskSamples] = {}, weight[kMaxDiskSamples] = {};
 };
 
-// Sums of one visible row as directional/interleaved_kernel.h has them; directions, which need
+// Sums of one visible row as filters/interleaved/kernel.h has them; directions, which need
 // normals, are written if out[1] is there. Whole vectors are written past the end.
 void screen_pattern_row(const ScreenPatternFrame& frame, int row, int width,
-                        float* const out[directional::kChannels]);
+                        float* const out[interleaved::kChannels]);
 
 }  // namespace obscura
 

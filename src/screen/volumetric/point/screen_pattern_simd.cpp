@@ -20,7 +20,7 @@ using om::leaf::kDepthGrain;
 
 template <bool kPlane, bool kDirections>
 void Pixels(const ScreenPatternFrame& f, int row, int width,
-            float* const out[directional::kChannels]) {
+            float* const out[interleaved::kChannels]) {
   const D d;
   const RowLoader loader(f.view, row, width);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), round = hn::Set(d, kRound);
@@ -94,7 +94,7 @@ void Pixels(const ScreenPatternFrame& f, int row, int width,
 }
 
 void Row(const ScreenPatternFrame& f, int row, int width,
-         float* const out[directional::kChannels]) {
+         float* const out[interleaved::kChannels]) {
   if (out[1]) return Pixels<true, true>(f, row, width, out);
   f.view.normal_x ? Pixels<true, false>(f, row, width, out)
                   : Pixels<false, false>(f, row, width, out);
@@ -110,7 +110,7 @@ namespace obscura::screen_pattern {
 HWY_EXPORT(Row);
 
 static void run(const ScreenPatternFrame& f, int row, int width,
-                float* const out[directional::kChannels]) {
+                float* const out[interleaved::kChannels]) {
   HWY_DYNAMIC_DISPATCH(Row)(f, row, width, out);
 }
 
@@ -119,7 +119,7 @@ static void run(const ScreenPatternFrame& f, int row, int width,
 namespace obscura {
 
 void screen_pattern_row(const ScreenPatternFrame& frame, int row, int width,
-                        float* const out[directional::kChannels]) {
+                        float* const out[interleaved::kChannels]) {
   screen_pattern::run(frame, row, width, out);
 }
 

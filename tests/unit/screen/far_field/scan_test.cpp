@@ -132,7 +132,7 @@ void scan_all(const Occluder& occluder, const Check& check) {
 // Rows of a strip, counted outwards.
 std::pair<int, int> rows_of(const Plane& p, const Direction& d, int interval, int level,
                             int strip) {
-  const int size = interval << level, start = strip * size - d.phase;
+  const int size = interval << level, start = strip * size - d.strip_offset;
   return {std::max(start, 0), std::min(start + size, p.height)};
 }
 

@@ -83,6 +83,7 @@ Settings settings_of(const Case& c) {
   s.falloff.kind = c.quadratic ? FalloffKind::kQuadratic : FalloffKind::kConstant;
   s.falloff.radius = 0.6f;
   s.rotate = c.rotate;
+  s.blur = false;
   if (c.thickness) s.occluder = Occluder::of_thickness(0.3f);
   return s;
 }
@@ -93,7 +94,7 @@ template <class Reference>
 void expect_agreement(const view::Geometry& g, Method* method, const Reference& reference,
                       int every, double tolerance, int allowed, const Case& c) {
   const std::unique_ptr<Executor> executor = make_executor(1);
-  const int width = g.visible_width(), height = g.visible_height();
+  const int width = g.visible().width, height = g.visible().height;
   std::vector<double> expected;
   double sum = 0;
   for (int y = 0; y < height; y += every) {

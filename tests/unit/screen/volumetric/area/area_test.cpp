@@ -24,7 +24,7 @@ TEST(Area, EveryTargetAgreesWithScalar) {
     AreaSettings s = settings_of<AreaSettings>(c);
     s.samples = 4;
     std::unique_ptr<Method> method;
-    ASSERT_TRUE(make_area(s, kWidth, kHeight, &method).ok());
+    ASSERT_TRUE(make_method(s, kWidth, kHeight, &method).ok());
     const reference::Area reference(g, s, disk_pattern(s.samples, s.center), pyramid.levels());
     expect_agreement(g, method.get(), reference, 4, kTolerance, kAllowed, c);
   }
@@ -47,7 +47,7 @@ TEST(Area, CoarseLevelsAgreeWithScalar) {
       s.samples = samples;
       s.falloff.radius = 2;
       std::unique_ptr<Method> method;
-      ASSERT_TRUE(make_area(s, width, height, &method).ok());
+      ASSERT_TRUE(make_method(s, width, height, &method).ok());
       const reference::Area reference(g, s, disk_pattern(samples, s.center), pyramid.levels());
       expect_agreement(g, method.get(), reference, 29, kTolerance, kAllowed, c);
     }

@@ -23,7 +23,7 @@ TEST(Line, EveryTargetAgreesWithScalar) {
     const view::Geometry g = geometry(c);
     const auto s = settings_of<LineSettings>(c);
     std::unique_ptr<Method> method;
-    ASSERT_TRUE(make_line(s, &method).ok());
+    ASSERT_TRUE(make_method(s, g.width, g.height, &method).ok());
     const reference::Line reference(g, s, disk_pattern(s.samples, false));
     // A tap on the border between two texels may fall to either side.
     expect_agreement(g, method.get(), reference, 1, kKernelTolerance, 3, c);
@@ -36,11 +36,13 @@ std::vector<float> run(const DepthField& field, const LineSettings& s,
   view::Geometry g;
   EXPECT_TRUE(
       view::convert(field, {.normals = true, .works_without_normals = true}, *executor, &g).ok());
-  std::unique_ptr<Method> method;
-  EXPECT_TRUE(make_line_with(s, pattern, &method).ok());
-  std::vector<float> result(static_cast<std::size_t>(g.visible_width()) * g.visible_height());
-  const Outputs outputs{.visibility = {result.data(), g.visible_width(), g.visible_height()}};
-  EXPECT_TRUE(method->run(g, outputs, {*executor, {}}).ok());
+  LineFrame f = line_frame(s, pattern);
+  f.view = view::make_tap_frame(g, f.view.radius);
+  const Extent visible = g.visible();
+  std::vector<float> result(static_cast<std::size_t>(visible.width) * visible.height);
+  for (int y = 0; y < visible.height; ++y) {
+    line_row(f, y, 0, visible.width, &result[static_cast<std::size_t>(y) * visible.width]);
+  }
   return result;
 }
 
@@ -86,13 +88,14 @@ TEST(Line, LargeImagesAreIndexedExactly) {
     for (int x = 0; x < width; ++x) g.depth(x, y) = 5 + 0.01f * ((x * 7 + y * 3) % 32);
   }
   LineSettings s;
+  s.blur = false;
   s.falloff.radius = 0.5f * g.camera.scale_x * 5 * height;
   g.guard_band = {width - 40, 1, height - 30, 1};  // the far corner; then the near one
   std::unique_ptr<Executor> executor = make_executor(1);
   for (int corner = 0; corner < 2; ++corner) {
     std::unique_ptr<Method> method;
-    ASSERT_TRUE(make_line(s, &method).ok());
-    const int w = g.visible_width(), h = g.visible_height();
+    ASSERT_TRUE(make_method(s, g.width, g.height, &method).ok());
+    const int w = g.visible().width, h = g.visible().height;
     std::vector<float> result(static_cast<std::size_t>(w) * h);
     ASSERT_TRUE(method->run(g, {.visibility = {result.data(), w, h}}, {*executor, {}}).ok());
     const reference::Line reference(g, s, disk_pattern(s.samples, false));

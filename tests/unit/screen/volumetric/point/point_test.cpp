@@ -22,7 +22,7 @@ TEST(Point, EveryTargetAgreesWithScalar) {
     PointSettings s = settings_of<PointSettings>(c);
     s.samples = 12;
     std::unique_ptr<Method> method;
-    ASSERT_TRUE(make_point(s, &method).ok());
+    ASSERT_TRUE(make_method(s, g.width, g.height, &method).ok());
     const reference::Point reference(g, s, ball_pattern(s.samples));
     expect_agreement(g, method.get(), reference, 1, kTolerance, kAllowed, c);
   }

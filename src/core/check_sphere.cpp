@@ -1,4 +1,4 @@
-#include "screen/volumetric/volumetric.h"
+#include "core/check_sphere.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-Status check_volumetric(const Falloff& falloff, const Occluder& occluder) {
+Status check_sphere(const Falloff& falloff, const Occluder& occluder) {
   if (Status s = validate(falloff); !s.ok()) return s;
   if (falloff.kind != FalloffKind::kConstant && falloff.kind != FalloffKind::kQuadratic) {
     return invalid_argument(text(

@@ -1,0 +1,15 @@
+#ifndef OBSCURA_SRC_CORE_CHECK_SPHERE_H_
+#define OBSCURA_SRC_CORE_CHECK_SPHERE_H_
+
+#include "obscura/falloff.h"
+#include "obscura/occluder.h"
+
+namespace obscura {
+
+// What methods that integrate over a sphere have in common: its radius is finite, rho constant or
+// quadratic, occluders solid or of one thickness.
+Status check_sphere(const Falloff& falloff, const Occluder& occluder);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_CORE_CHECK_SPHERE_H_

@@ -1,0 +1,25 @@
+#ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_FILL_IO_H_
+#define OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_FILL_IO_H_
+
+#include "gpu/io.h"
+
+IO_BEGIN(far_field_fill_io)
+IO_NUMBER(kTile, 32);
+IO_NUMBER(kSolid, 0);  // kinds of occluder
+IO_NUMBER(kOfThickness, 1);
+IO_NUMBER(kWithBack, 2);
+IO_THREADS(32, 8);
+IO_TILE(kTile, kTile);
+IO_CONSTANT(0, bool, kLattice, true);  // else receivers alone
+IO_CONSTANT(1, int, kOccluder, 0);
+IO_READS(0, Depth, float, depth);
+IO_READS(1, Receivers, vec4, receivers);
+IO_WRITES(2, Lattice, float, lattice);
+IO_WRITES(3, Turned, vec4, turned_receivers);
+IO_READS(4, OrthoOffset, float, ortho_offset);
+IO_WRITES(5, Back, float, backs);
+IO_READS(6, GivenBack, float, given_backs);
+IO_PUSH(int transposed; int lattice_stride; int margin;);
+IO_END
+
+#endif  // OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_FILL_IO_H_

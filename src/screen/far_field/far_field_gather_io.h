@@ -1,0 +1,16 @@
+#ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_GATHER_IO_H_
+#define OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_GATHER_IO_H_
+
+#include "screen/far_field/totals_io.h"
+
+IO_BEGIN(far_field_gather_io)
+IO_THREADS(32, 4);
+OBSCURA_TOTALS;
+IO_CONSTANT(3, bool, kToImage, true);
+IO_READS(3, Accepted, uint, accepted);
+IO_READS(4, Far, float, far);
+IO_UPDATES(5, Totals, float, totals);
+IO_NO_PUSH;
+IO_END
+
+#endif  // OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_GATHER_IO_H_

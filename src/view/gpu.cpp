@@ -1,0 +1,65 @@
+#include "view/gpu.h"
+
+#include "shaders/depth.h"
+#include "shaders/farthest.h"
+#include "shaders/normals.h"
+
+namespace obscura::gpu {
+namespace {
+
+std::uint64_t depth_bytes(const FrameShape& shape) { return sizeof(float) * shape.size().pixels(); }
+
+// Linear depth of an image of depth.
+Pass conversion(const FrameShape& shape, Slot image, int region) {
+  namespace io = depth_io;
+  return {.name = "depth",
+          .shader = shaders::depth,
+          .constants = {{io::kDepthKind, static_cast<int>(shape.depth_kind)}},
+          .slots = {{io::kDepthImageAt, image}, {io::kDepthAt, region}},
+          .size = shape.size()};
+}
+
+}  // namespace
+
+Geometry add_geometry(const Frame& frame, bool normals, Program* program) {
+  namespace io = normals_io;
+  if (frame.geometry.depth >= 0) return frame.geometry;
+  const FrameShape& shape = frame.shape;
+  Geometry g;
+  g.depth = program->add_region(depth_bytes(shape));
+  program->add(conversion(shape, Slot::kDepthImage, g.depth));
+  if (!normals) return g;
+  g.normals = program->add_region(frame.visible_bytes(4));
+  // A binding wants an image even where the pass is specialised not to read it.
+  const Slot given = shape.normals ? Slot::kNormalImage : Slot::kDepthImage;
+  program->add(
+      {.name = "normals",
+       .shader = shaders::normals,
+       .constants = {{io::kGiven, shape.normals}},
+       .slots = {{io::kDepthAt, g.depth}, {io::kNormalsAt, g.normals}, {io::kNormalImageAt, given}},
+       .size = frame.visible()});
+  return g;
+}
+
+int add_back_depth(const Frame& frame, Program* program) {
+  if (frame.geometry.back >= 0) return frame.geometry.back;
+  const int back = program->add_region(depth_bytes(frame.shape));
+  Pass pass = conversion(frame.shape, Slot::kBackDepthImage, back);
+  pass.overlaps = true;
+  program->add(std::move(pass));
+  return back;
+}
+
+int add_farthest(const Geometry& geometry, Program* program) {
+  namespace io = farthest_io;
+  const int region = program->add_region(kFarthestCount * sizeof(float));
+  // Depends on depth alone, which a barrier before the pass before has made ready.
+  program->add({.name = "farthest",
+                .shader = shaders::farthest,
+                .slots = {{io::kDepthAt, geometry.depth}, {io::kFarthestAt, region}},
+                .size = {kFarthestCount, 1},
+                .overlaps = true});
+  return region;
+}
+
+}  // namespace obscura::gpu

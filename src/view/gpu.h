@@ -1,0 +1,22 @@
+#ifndef OBSCURA_SRC_VIEW_GPU_H_
+#define OBSCURA_SRC_VIEW_GPU_H_
+
+#include "gpu/frame.h"
+#include "gpu/program.h"
+
+// The passes that turn images of depth into geometry (view/geometry.h).
+namespace obscura::gpu {
+
+// Adds linear depth and, if asked for, normals; or gives what the frame has.
+Geometry add_geometry(const Frame& frame, bool normals, Program* program);
+
+// Adds where matter ends, linear depth (FrameShape::back_depth); or gives what the frame has.
+int add_back_depth(const Frame& frame, Program* program);
+
+// Adds a region of kFarthestCount floats, the greatest of which is the farthest finite depth.
+inline constexpr int kFarthestCount = 256;
+int add_farthest(const Geometry& geometry, Program* program);
+
+}  // namespace obscura::gpu
+
+#endif  // OBSCURA_SRC_VIEW_GPU_H_

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <numbers>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/run_threads.h"
+#include "core/text.h"
+#include "volume/grid_sampler.h"
+#include "volume/sweep_halves.h"
+#include "volume/visibility_field.h"
+
+namespace obscura {
+namespace {
+
+// A grid turned so that its axis (1, 1, 1) points to the light, around the whole volume.
+Status sweep_turned(GridView<const float> distance, const Vec3& light,
+                    const OcclusionSettings& settings, VisibilityField* field,
+                    const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
+  VisibilityField result;
+  VisibilityFieldImpl& f = result.impl();
+  const float fine = *std::min_element(distance.spacing.begin(), distance.spacing.end());
+  f.scheme = transport_scheme(settings.transport, {fine, fine, fine});
+  f.scheme.plane = false;
+  f.alpha = settings.alpha;
+  f.shadow = true;
+  const float side = fine * static_cast<float>(f.scheme.cell);
+  f.spacing = {side, side, side};
+
+  // The rotation about d x l that takes d = (1, 1, 1) / sqrt 3 to the light l, by Rodrigues.
+  const float third = 1 / std::numbers::sqrt3_v<float>;
+  const Vec3 d{third, third, third};
+  const Vec3 v{d[1] * light[2] - d[2] * light[1], d[2] * light[0] - d[0] * light[2],
+               d[0] * light[1] - d[1] * light[0]};
+  const float c = d[0] * light[0] + d[1] * light[1] + d[2] * light[2];
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      if (c < -0.9999f) {  // opposite: half a turn about an axis across d
+        static constexpr float kAcross[3] = {0.70710678f, -0.70710678f, 0};
+        f.turned[a][b] = 2 * kAcross[a] * kAcross[b] - (a == b);
+        continue;
+      }
+      const float cross[3][3] = {{0, -v[2], v[1]}, {v[2], 0, -v[0]}, {-v[1], v[0], 0}};
+      float square = 0;
+      for (int k = 0; k < 3; ++k) square += cross[b][k] * cross[k][a];
+      f.turned[a][b] = (a == b) + cross[b][a] + square / (1 + c);
+    }
+  }
+  Vec3 low{}, high{};
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int a = 0; a < 3; ++a) {
+      float u = 0;
+      for (int b = 0; b < 3; ++b) {
+        const float extent = distance.spacing[b] * static_cast<float>(distance.size[b] - 1);
+        u += f.turned[a][b] * (corner >> b & 1 ? extent : 0);
+      }
+      low[a] = std::min(low[a], u);
+      high[a] = std::max(high[a], u);
+    }
+  }
+  f.origin = low;
+  for (int a = 0; a < 3; ++a) {
+    f.size[a] = static_cast<int>(std::ceil((high[a] - low[a]) / side)) + 1;
+    f.end[a] = high[a];
+  }
+  const GridSampler sample(distance);
+  std::vector<std::uint8_t> tau(f.voxels());
+  executor.parallel_for(f.size[2], [&](int z, int) {
+    std::uint8_t* out = tau.data() + static_cast<std::size_t>(z) * f.size[0] * f.size[1];
+    for (int y = 0; y < f.size[1]; ++y) {
+      for (int x = 0; x < f.size[0]; ++x, ++out) {
+        const float q[3] = {low[0] + side * static_cast<float>(x),
+                            low[1] + side * static_cast<float>(y),
+                            low[2] + side * static_cast<float>(z)};
+        Vec3 p{};
+        for (int b = 0; b < 3; ++b) {
+          for (int a = 0; a < 3; ++a) p[b] += f.turned[a][b] * q[a];
+        }
+        const float t = sample.inside(p) ? std::clamp(sample(p) / side + 0.5f, 0.0f, 1.0f) : 1.0f;
+        *out = static_cast<std::uint8_t>(255 * (1 - (1 - t) * settings.alpha) + 0.5f);
+      }
+    }
+  });
+  const int half = static_cast<int>(kShadowOctant >> 2);
+  Progress progress(
+      settings.precision == VisibilityPrecision::kU8 ? 1 : static_cast<std::int64_t>(f.channels()),
+      run.progress);
+  sweep_halves(tau.data(), settings, 1 << half, executor, progress, &f);
+  if (progress.cancelled()) return sweep_cancelled();
+  *field = std::move(result);
+  return {};
+}
+
+}  // namespace
+
+Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_light,
+                    const OcclusionSettings& settings, VisibilityField* field,
+                    const RunOptions& run) {
+  if (Status s = check_sweep(distance, settings); !s.ok()) return s;
+  const float length = std::hypot(to_light[0], to_light[1], to_light[2]);
+  if (!(length > 0 && std::isfinite(length))) {
+    return invalid_argument(text("to_light is (", to_light[0], ", ", to_light[1], ", ", to_light[2],
+                                 "); it must be finite and not zero"));
+  }
+  for (float& w : to_light) w /= length;
+  try {
+    return sweep_turned(distance, to_light, settings, field, run);
+  } catch (const std::bad_alloc&) {
+    return sweep_out_of_memory();
+  }
+}
+
+}  // namespace obscura

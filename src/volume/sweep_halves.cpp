@@ -1,0 +1,56 @@
+#include "volume/sweep_halves.h"
+
+#include <cstddef>
+#include <vector>
+
+#include "volume/volume_access.h"
+
+namespace obscura {
+
+void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, int halves,
+                  Executor& executor, Progress& progress, VisibilityFieldImpl* field) {
+  const std::size_t samples = field->voxels() * field->channels();
+  const SweepDirection* directions = field->scheme.directions.data();
+  if (settings.precision == VisibilityPrecision::kU8) {
+    for (int half = 0; half < 2; ++half) {
+      if ((halves >> half & 1) && !field->bytes[half]) {
+        field->bytes[half].reset(new std::uint8_t[samples]);
+      }
+    }
+    executor.parallel_for(2, [&](int half, int) {
+      if (!(halves >> half & 1) || progress.cancelled()) return;
+      sweep_occlusion_u8(
+          {tau, field->size, half == 0, directions, field->directions(), field->bytes[half].get()});
+      progress.advance();
+    });
+    return;
+  }
+  std::vector<float> open(field->voxels());
+  for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<float>(tau[i]) / 255;
+  for (int half = 0; half < 2; ++half) {
+    if (halves >> half & 1) field->floats[half].reset(new float[samples]);
+  }
+  const int channels = static_cast<int>(field->channels()), n = field->directions();
+  executor.parallel_for(2 * channels, [&](int i, int) {
+    const int half = i / channels, channel = i % channels, quadrant = kQuadrantOfSlot[channel / n];
+    if (!(halves >> half & 1) || progress.cancelled()) return;
+    sweep_occlusion_f32(open.data(), field->size,
+                        {(quadrant & 1) != 0, (quadrant & 2) != 0, half == 1},
+                        directions[channel % n], field->floats[half].get() + channel, channels);
+    progress.advance();
+  });
+}
+
+Status check_sweep(const GridView<const float>& distance, const OcclusionSettings& settings) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  return validate_grid("distance", distance.data, distance.size, distance.spacing);
+}
+
+Status sweep_out_of_memory() {
+  return {StatusCode::kOutOfMemory, "out of memory in the occlusion sweep; use a smaller volume"};
+}
+Status sweep_cancelled() {
+  return {StatusCode::kCancelled, "the occlusion sweep was cancelled by the caller"};
+}
+
+}  // namespace obscura

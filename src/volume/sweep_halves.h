@@ -1,0 +1,26 @@
+#ifndef OBSCURA_SRC_VOLUME_SWEEP_HALVES_H_
+#define OBSCURA_SRC_VOLUME_SWEEP_HALVES_H_
+
+#include <cstdint>
+
+#include "core/progress.h"
+#include "obscura/executor.h"
+#include "obscura/volume.h"
+#include "volume/visibility_field.h"
+
+// What the sweeps of ambient occlusion and of a shadow share.
+
+namespace obscura {
+
+// Sweeps the halves of the field that are asked for (bit 0 and 1 of `halves`) through
+// transmittances as bytes.
+void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, int halves,
+                  Executor& executor, Progress& progress, VisibilityFieldImpl* field);
+
+Status check_sweep(const GridView<const float>& distance, const OcclusionSettings& settings);
+Status sweep_out_of_memory();
+Status sweep_cancelled();
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_VOLUME_SWEEP_HALVES_H_

@@ -11,7 +11,7 @@
 
 #include "io/volumes/vdb.h"
 #include "obscura/volume.h"
-#include "reproduce/vdb_distance.h"
+#include "scene/volumes/vdb_distance.h"
 #include "tests/reference/volume_loops.h"
 #include "volume/distance_kernel.h"
 #include "volume/distance_start.h"

@@ -19,3 +19,9 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/obscura.pc DESTINATION ${CMAKE_INSTALL
 if(TARGET obscura_command)
   install(TARGETS obscura_command)
 endif()
+# On request: cmake --install FOLDER --component measure
+foreach(program obscura-reproduce obscura-bench)
+  if(TARGET ${program})
+    install(TARGETS ${program} COMPONENT measure EXCLUDE_FROM_ALL)
+  endif()
+endforeach()

@@ -45,6 +45,8 @@ struct HeadlessFrame {
   std::uint32_t frame_index = 0;
 };
 
+class VulkanDevice;
+
 class HeadlessVulkan {
  public:
   HeadlessVulkan();
@@ -65,8 +67,7 @@ class HeadlessVulkan {
   Status copy_bandwidth(double* bytes_per_second);
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<VulkanDevice> device_;
 };
 
 }  // namespace obscura::tools

@@ -8,7 +8,7 @@
 #include "io/volumes/vdb.h"
 #include "obscura/volume.h"
 #include "reproduce/sweeps.h"
-#include "reproduce/vdb_distance.h"
+#include "scene/volumes/vdb_distance.h"
 
 namespace obscura::tools {
 namespace {

@@ -16,7 +16,6 @@ struct App {
   CLI::App cli{"Ambient visibility from depth images, meshes and volumes", "obscura"};
   bool quiet = false;
   std::function<Status()> action;
-  int exit_code = kDone;  // of an action that succeeds; only `bench` sets it
 
   // Adds a subcommand with --quiet; `run` is called when the user has chosen it.
   CLI::App* add_command(const std::string& name, const std::string& description,
@@ -28,14 +27,12 @@ void add_threads_option(CLI::App* command, int* threads);
 
 // Each adds its subcommand; see the file of the same name.
 void add_ao(App& app);
-void add_bench(App& app);
 void add_compare(App& app);
 void add_demo(App& app);
 void add_gbuffer(App& app);
 void add_info(App& app);
 void add_light(App& app);
 void add_patterns(App& app);
-void add_reproduce(App& app);
 void add_settings(App& app);
 void add_volume(App& app);
 

@@ -4,7 +4,7 @@
 #include "apps/obscura/app.h"
 #include "apps/obscura/input.h"
 #include "fmt/format.h"
-#include "io/images/gbuffer_file.h"
+#include "scene/views/gbuffer_file.h"
 
 namespace obscura::app {
 namespace {

@@ -21,7 +21,7 @@ struct InfoCommand {
 
 Status run_volume_info(const InfoCommand& c) {
   tools::VolumeImage image;
-  nlohmann::ordered_json description;
+  tools::Json description;
   if (Status s = c.volume.load(c.path, 0, &image); !s.ok()) return s;
   if (Status s = tools::describe_volume(image, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(tools::volume_description_text(description).c_str(), stdout);
@@ -30,14 +30,14 @@ Status run_volume_info(const InfoCommand& c) {
   report.settings = description;
   for (const char* metric : {"min", "max", "mean", "otsu_threshold", "finite", "nan", "infinite"}) {
     if (description.contains(metric)) {
-      report.add("values", metric, description[metric].get<double>());
+      report.add("values", metric, description[metric].number());
     }
   }
   return write_json(report, c.json);
 }
 
 Status run_info(const InfoCommand& c) {
-  nlohmann::ordered_json description;
+  tools::Json description;
   if (c.devices) return print_devices();
   if (c.path.empty()) return invalid_argument("FILE is missing; or say --devices");
   if (tools::is_volume(c.path)) return run_volume_info(c);
@@ -46,10 +46,10 @@ Status run_info(const InfoCommand& c) {
   if (c.json.empty()) return {};
   tools::Report report;
   report.settings = description;
-  for (const auto& channel : description["channels"]) {
+  for (const tools::Json& channel : description["channels"].elements()) {
     for (const char* metric : {"min", "max", "finite", "nan", "infinite"}) {
       if (channel.contains(metric)) {
-        report.add(channel["name"], metric, channel[metric].get<double>());
+        report.add(channel["name"].text(), metric, channel[metric].number());
       }
     }
   }

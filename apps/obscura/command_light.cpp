@@ -11,10 +11,12 @@
 #include "fmt/format.h"
 #include "io/environments/convolution_cache.h"
 #include "io/images/files.h"
+#include "io/pictures/display.h"
 #include "io/report/progress_bar.h"
 #include "io/report/stopwatch.h"
 #include "obscura/importance.h"
 #include "obscura/lighting.h"
+#include "scene/light/background.h"
 #include "scene/light/comparators.h"
 
 namespace obscura::app {
@@ -57,24 +59,6 @@ Status one_of(const char* option, const std::string& value,
     list += (list.empty() ? "" : ", ") + std::string(choice);
   }
   return invalid_argument(fmt::format("{} is '{}'; it must be one of {}", option, value, list));
-}
-
-// Eye space to world space: a scene's own camera, then the camera's pitch and heading.
-std::array<float, 9> world_from_eye(const LightCommand& c, const LoadedInput& input) {
-  tools::Frame frame;
-  if (input.rendering.scene) frame = input.rendering.view.frame();
-  const double h = c.heading_deg * std::numbers::pi / 180;
-  const double p = c.pitch_deg * std::numbers::pi / 180;
-  std::array<float, 9> m;
-  const tools::Vec3 axes[3] = {
-      {1, 0, 0}, {0, std::cos(p), std::sin(p)}, {0, -std::sin(p), std::cos(p)}};
-  for (int column = 0; column < 3; ++column) {
-    const tools::Vec3 v = frame.to_world(axes[column]);
-    m[column] = float(std::cos(h) * v.x - std::sin(h) * v.z);
-    m[3 + column] = float(v.y);
-    m[6 + column] = float(std::sin(h) * v.x + std::cos(h) * v.z);
-  }
-  return m;
 }
 
 // What the lighting reads, at the visible size.
@@ -175,67 +159,6 @@ Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment&
   return light(inputs, lights, settings, {image->view(0), image->view(1), image->view(2)}, options);
 }
 
-// Background pixels show the environment along their rays, or black.
-void fill_background(const LoadedInput& input, const std::array<float, 9>& m,
-                     const Environment* environment, tools::Image* image) {
-  const tools::DepthInput& g = input.depth();
-  const bool far_end = g.depth_kind == DepthKind::kNdc || g.depth_kind == DepthKind::kNdcReversed;
-  for (int y = 0; y < image->height; ++y) {
-    for (int x = 0; x < image->width; ++x) {
-      const int u = x + g.guard_band.left, v = y + g.guard_band.top;
-      const float depth = g.depth[std::size_t(v) * g.width + u];
-      const bool background = !std::isfinite(depth) ||
-                              (far_end ? depth == (g.depth_kind == DepthKind::kNdc ? 1.0f : 0.0f)
-                                       : depth >= g.far_plane);
-      if (!background) continue;
-      std::array<float, 3> rgb{};
-      if (environment) {
-        const Camera& camera = g.camera;
-        const float away = camera.orthographic ? 0.0f : 1.0f;
-        const float ray[3] = {away * (float(u) + 0.5f - camera.center_u) * camera.scale_x,
-                              away * (camera.center_v - float(v) - 0.5f) * camera.scale_y, -1};
-        std::array<float, 3> world{};
-        for (int k = 0; k < 3; ++k) {
-          for (int i = 0; i < 3; ++i) world[k] += m[3 * k + i] * ray[i];
-        }
-        rgb = environment->radiance(world);
-      }
-      for (int k = 0; k < 3; ++k) {
-        image->channels[k].values[std::size_t(y) * image->width + x] = rgb[k];
-      }
-    }
-  }
-}
-
-// Means of n x n pixels.
-tools::Image reduced(const tools::Image& image, int n) {
-  tools::Image result(image.width / n, image.height / n);
-  for (const auto& channel : image.channels) {
-    std::vector<float>& to = result.add(channel.name);
-    for (int y = 0; y < result.height; ++y) {
-      for (int x = 0; x < result.width; ++x) {
-        double sum = 0;
-        for (int i = 0; i < n * n; ++i) {
-          sum += channel.values[std::size_t(y * n + i / n) * image.width + x * n + i % n];
-        }
-        to[std::size_t(y) * result.width + x] = static_cast<float>(sum / (n * n));
-      }
-    }
-  }
-  return result;
-}
-
-// Linear light as a screen shows it, brightened by `exposure` stops.
-void to_srgb(double exposure, tools::Image* image) {
-  const auto gain = static_cast<float>(std::exp2(exposure));
-  for (auto& channel : image->channels) {
-    for (float& v : channel.values) {
-      const float c = std::min(std::max(v * gain, 0.0f), 1.0f);
-      v = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-    }
-  }
-}
-
 Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
   if (c.sun_direction.empty()) return {};
   Sun sun;
@@ -297,7 +220,10 @@ Status run_light(const LightCommand& c, bool quiet) {
   LoadedInput input;
   if (Status s = c.input.load(layer_needs(method), c.threads, &input); !s.ok()) return s;
   const double loaded = watch.seconds();
-  settings.world_from_eye = world_from_eye(c, input);
+  constexpr double kRadians = std::numbers::pi / 180;
+  settings.world_from_eye =
+      tools::world_from_eye(input.rendering.scene ? input.rendering.view.frame() : tools::Frame(),
+                            c.heading_deg * kRadians, c.pitch_deg * kRadians);
   Environment environment;
   const bool compared = c.comparator != "none";
   if (compared || !c.no_background) {
@@ -336,9 +262,10 @@ Status run_light(const LightCommand& c, bool quiet) {
   }
   const double lit = watch.seconds();
 
-  fill_background(input, settings.world_from_eye, c.no_background ? nullptr : &environment, &image);
-  if (c.supersample > 1) image = reduced(image, c.supersample);
-  if (tools::file_ending(c.output) == ".png") to_srgb(c.exposure, &image);
+  tools::fill_background(input.depth(), settings.world_from_eye,
+                         c.no_background ? nullptr : &environment, &image);
+  if (c.supersample > 1) image = tools::box_filtered(image, c.supersample);
+  if (tools::file_ending(c.output) == ".png") tools::to_srgb(c.exposure, &image);
   tools::WriteOptions write;
   write.half = c.half;
   if (Status s = tools::write_image(c.output, image, write); !s.ok()) return s;

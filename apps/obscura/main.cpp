@@ -3,6 +3,7 @@
 #include <new>
 
 #include "apps/obscura/app.h"
+#include "apps/obscura/programs.h"
 #include "fmt/format.h"
 #include "io/images/exr.h"
 #include "io/report/progress_bar.h"
@@ -48,10 +49,9 @@ int run(int argc, char** argv) {
   add_light(app);
   add_volume(app);
   add_demo(app);
-  add_bench(app);
   add_patterns(app);
-  add_reproduce(app);
   add_settings(app);
+  add_programs(app);
   bool known = argc < 2 || argv[1][0] == '-';
   std::string names;
   for (const CLI::App* command : app.cli.get_subcommands({})) {
@@ -74,8 +74,7 @@ int run(int argc, char** argv) {
   if (Status s = limit_simd_from_environment(); !s.ok()) return fail(s.message(), kBadUsage);
   tools::catch_interrupts();
   const Status status = app.action();
-  if (!status.ok()) return fail(status.message(), exit_code(status));
-  return app.exit_code;
+  return status.ok() ? kDone : fail(status.message(), exit_code(status));
 }
 
 }  // namespace
@@ -106,6 +105,7 @@ void add_threads_option(CLI::App* command, int* threads) {
 int main(int argc, char** argv) {
   using namespace obscura::app;
   try {
+    run_program(argv);
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailure);

@@ -111,8 +111,8 @@ Status run_method(const AnySettings& settings, const LoadedInput& input, const O
   return status;
 }
 
-nlohmann::ordered_json to_json(const AnySettings& settings) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+tools::Json to_json(const AnySettings& settings) {
+  tools::Json json = tools::Json::object();
   visit_settings(settings, [&](const auto& s) {
     visit_fields(s, [&](const auto& value, const Field& field) {
       using T = std::remove_cvref_t<decltype(value)>;

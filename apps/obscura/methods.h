@@ -7,7 +7,7 @@
 
 #include "apps/obscura/input.h"
 #include "apps/obscura/option_table.h"
-#include "nlohmann/json.hpp"
+#include "io/report/json.h"
 #include "obscura/estimator.h"
 #include "scene/truth/geometric.h"
 
@@ -57,7 +57,7 @@ Status run_method(const AnySettings& settings, const LoadedInput& input, const O
                   const RunOptions& options);
 
 // Settings as JSON, field by field.
-nlohmann::ordered_json to_json(const AnySettings& settings);
+tools::Json to_json(const AnySettings& settings);
 
 // docs/settings.md.
 std::string settings_markdown();

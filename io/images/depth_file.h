@@ -6,7 +6,7 @@
 
 #include "io/images/depth_input.h"
 #include "io/images/exr.h"
-#include "scene/views/view_options.h"
+#include "io/images/view_size.h"
 
 namespace obscura::tools {
 

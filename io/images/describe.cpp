@@ -1,6 +1,7 @@
 #include "io/images/describe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,8 +12,6 @@
 
 namespace obscura::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json describe_channel(const Image::Channel& channel, const std::string& type) {
   float lo = INFINITY, hi = -INFINITY;
@@ -40,7 +39,7 @@ Json describe_channel(const Image::Channel& channel, const std::string& type) {
 }
 
 Json describe_window(const PixelWindow& w) {
-  return Json::array({w.min_x, w.min_y, w.max_x, w.max_y});
+  return std::array{w.min_x, w.min_y, w.max_x, w.max_y};
 }
 
 std::string describe_camera(const std::string& path, const ExrHeader& header) {
@@ -79,8 +78,7 @@ void describe_exr(const std::string& path, const ExrHeader& header, Json* json) 
 
 // A value for people. Names in a file may hold any bytes; none shall steer a terminal.
 std::string as_text(const Json& value) {
-  std::string text = value.is_string() ? value.get<std::string>()
-                                       : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = value.is_string() ? value.text() : value.dump();
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
   }
@@ -90,7 +88,7 @@ std::string as_text(const Json& value) {
 }  // namespace
 
 Status describe_image(const std::string& path, Json* description) {
-  Json json{{"file", path}};
+  Json json{{"file", path}}, channels = Json::array();
   Image image;
   ExrHeader header;
   const bool exr = file_ending(path) == ".exr";
@@ -100,28 +98,27 @@ Status describe_image(const std::string& path, Json* description) {
   json["width"] = image.width;
   json["height"] = image.height;
   if (exr) describe_exr(path, header, &json);
-  json["channels"] = Json::array();
   for (const Image::Channel& c : image.channels) {
     const auto* native = exr ? header.find(c.name) : nullptr;
     const char* type = file_ending(path) == ".png" ? "8 or 16 bits, as [0, 1]" : "float";
-    json["channels"].push_back(describe_channel(c, native ? native->type : type));
+    channels.push_back(describe_channel(c, native ? native->type : type));
   }
   for (const ExrHeader::Channel& c : header.channels) {
-    if (c.subsampled)
-      json["channels"].push_back({{"name", c.name}, {"type", c.type + ", subsampled"}});
+    if (c.subsampled) channels.push_back({{"name", c.name}, {"type", c.type + ", subsampled"}});
   }
+  json["channels"] = std::move(channels);
   *description = std::move(json);
   return {};
 }
 
 std::string description_text(const Json& description) {
   std::string out;
-  for (const auto& [key, value] : description.items()) {
-    if (value.is_array() && !value.empty() && value[0].is_object()) {
+  for (const auto& [key, value] : description.members()) {
+    if (value.is_array() && !value.elements().empty() && value.elements()[0].is_object()) {
       out += key + ":\n";
-      for (const auto& entry : value) {
+      for (const Json& entry : value.elements()) {
         out += "  ";
-        for (const auto& [name, field] : entry.items()) {
+        for (const auto& [name, field] : entry.members()) {
           const std::string text = as_text(field);
           out += name == "name" ? text : fmt::format("  {} {}", name, text);
         }

@@ -22,10 +22,6 @@ std::string processor_name() {
   return "unknown";
 }
 
-nlohmann::ordered_json number(double v) {
-  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-}
-
 // Four significant digits: what a table can bear.
 std::string short_number(double v) {
   if (!std::isfinite(v)) return "-";
@@ -41,19 +37,17 @@ void append_new(std::vector<T>* list, const T& item) {
 
 }  // namespace
 
-std::string Report::to_json() const {
-  nlohmann::ordered_json json;
-  json["rows"] = nlohmann::ordered_json::array();
+Json Report::json() const {
+  Json list = Json::array();
   for (const Row& r : rows) {
-    nlohmann::ordered_json row{
-        {"name", r.name}, {"metric", r.metric}, {"value", number(r.value)}, {"unit", r.unit}};
-    if (r.bound) row["bound"] = number(*r.bound);
-    json["rows"].push_back(std::move(row));
+    Json row{{"name", r.name}, {"metric", r.metric}, {"value", r.value}, {"unit", r.unit}};
+    if (r.bound) row["bound"] = *r.bound;
+    list.push_back(std::move(row));
   }
-  json["machine"] = describe_machine();
-  json["settings"] = settings;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return {{"rows", std::move(list)}, {"machine", describe_machine()}, {"settings", settings}};
 }
+
+std::string Report::to_json() const { return json().dump(2) + "\n"; }
 
 std::string Report::to_markdown() const {
   std::vector<std::string> names, columns;
@@ -82,10 +76,13 @@ std::string Report::to_markdown() const {
   return out;
 }
 
-nlohmann::ordered_json describe_machine() {
-  return {{"processor", processor_name()}, {"threads", make_executor()->thread_count()},
-          {"simd", simd_target()},         {"simd_targets", simd_targets()},
-          {"simd_limit", simd_limit()},    {"compiler", compiler()},
+Json describe_machine() {
+  return {{"processor", processor_name()},
+          {"threads", make_executor()->thread_count()},
+          {"simd", simd_target()},
+          {"simd_targets", simd_targets()},
+          {"simd_limit", simd_limit()},
+          {"compiler", compiler()},
           {"obscura", version()}};
 }
 

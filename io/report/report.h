@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nlohmann/json.hpp"
+#include "io/report/json.h"
 #include "obscura/status.h"
 
 namespace obscura::tools {
@@ -22,21 +22,22 @@ struct Report {
   };
 
   std::vector<Row> rows;
-  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  Json settings = Json::object();
 
   void add(std::string name, std::string metric, double value, std::string unit = "",
            std::optional<double> bound = {}) {
     rows.push_back({std::move(name), std::move(metric), value, std::move(unit), bound});
   }
 
-  std::string to_json() const;
+  Json json() const;
+  std::string to_json() const;  // as text
 
   // A Markdown table with one line per name and one column per metric, in order of appearance.
   std::string to_markdown() const;
 };
 
 // Processor, threads, SIMD target, compiler and version of Obscura.
-nlohmann::ordered_json describe_machine();
+Json describe_machine();
 
 }  // namespace obscura::tools
 

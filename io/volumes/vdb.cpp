@@ -1,18 +1,15 @@
-// This file and vdb_distance.cpp are all that includes OpenVDB, which takes long to compile.
+// This file and scene/volumes/vdb_distance.cpp are all that includes OpenVDB, which takes long to
+// compile.
 #include "io/volumes/vdb.h"
 
 #include <fmt/format.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
 
 #include "io/images/atomic_file.h"
 
-#ifdef OBSCURA_WITH_OPENVDB
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Dense.h>
-#endif
-
 namespace obscura::tools {
-
-#ifdef OBSCURA_WITH_OPENVDB
 namespace {
 
 // openvdb::initialize is not cheap and wants to be called once.
@@ -37,9 +34,66 @@ Status place(const openvdb::GridBase& grid, const openvdb::Coord& first, VolumeI
   return {};
 }
 
+constexpr int kLeafSide = 8;
+
+// Calls visit(leaf's first voxel, part of the leaf within the box) for every leaf that meets the
+// box.
+template <class Visit>
+void for_each_leaf(const openvdb::CoordBBox& box, Visit&& visit) {
+  openvdb::Coord at;
+  for (at[2] = box.min()[2] & -kLeafSide; at[2] <= box.max()[2]; at[2] += kLeafSide) {
+    for (at[1] = box.min()[1] & -kLeafSide; at[1] <= box.max()[1]; at[1] += kLeafSide) {
+      for (at[0] = box.min()[0] & -kLeafSide; at[0] <= box.max()[0]; at[0] += kLeafSide) {
+        openvdb::CoordBBox part = openvdb::CoordBBox::createCube(at, kLeafSide);
+        part.intersect(box);
+        visit(at, part);
+      }
+    }
+  }
+}
+
+// Calls visit(voxel, its index in the box, x fastest) for a part of a box.
+template <class Visit>
+void for_each_voxel(const openvdb::CoordBBox& part, const openvdb::CoordBBox& box, Visit&& visit) {
+  const openvdb::Coord size = box.dim();
+  openvdb::Coord at;
+  for (at[2] = part.min()[2]; at[2] <= part.max()[2]; ++at[2]) {
+    for (at[1] = part.min()[1]; at[1] <= part.max()[1]; ++at[1]) {
+      at[0] = part.min()[0];
+      const openvdb::Coord from = at - box.min();
+      std::int64_t index = (std::int64_t{from[2]} * size[1] + from[1]) * size[0] + from[0];
+      for (; at[0] <= part.max()[0]; ++at[0]) visit(at, index++);
+    }
+  }
+}
+
+// A place without a leaf has one value, its tile's.
+template <class Tree>
+void read_voxels(const Tree& tree, const openvdb::CoordBBox& box, float* values) {
+  for_each_leaf(box, [&](const openvdb::Coord& first, const openvdb::CoordBBox& part) {
+    const auto* leaf = tree.probeConstLeaf(first);
+    const float tile = leaf ? 0.0f : static_cast<float>(tree.getValue(first));
+    for_each_voxel(part, box, [&](const openvdb::Coord& at, std::int64_t i) {
+      values[i] = leaf ? static_cast<float>(leaf->getValue(at)) : tile;
+    });
+  });
+}
+
+void fill_voxels(const float* values, const openvdb::CoordBBox& box, openvdb::FloatTree* tree) {
+  for_each_leaf(box, [&](const openvdb::Coord& first, const openvdb::CoordBBox& part) {
+    auto* leaf = tree->touchLeaf(first);
+    for_each_voxel(part, box, [&](const openvdb::Coord& at, std::int64_t i) {
+      leaf->setValueOn(at, values[i]);
+    });
+  });
+}
+
 template <class Grid>
-Status densify(const Grid& grid, const char* stored, bool serial, VolumeImage* image) {
-  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
+  // The virtual functions of the bases and the factory below keep the trees' templates in OpenVDB's
+  // own library: compiled here they would take half a minute.
+  openvdb::CoordBBox box;
+  grid.constBaseTree().evalActiveVoxelBoundingBox(box);
   if (box.empty()) {
     return invalid_input(
         fmt::format("{}: its grid \"{}\" has no active voxel", image->name, grid.getName()));
@@ -59,9 +113,7 @@ Status densify(const Grid& grid, const char* stored, bool serial, VolumeImage* i
   image->type = VoxelType::kF32;
   image->stored_type = stored;
   image->samples.resize(std::size_t(image->voxels()) * sizeof(float));
-  openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
-      box, reinterpret_cast<float*>(image->samples.data()));
-  openvdb::tools::copyToDense(grid, dense, serial);
+  read_voxels(grid.constTree(), box, reinterpret_cast<float*>(image->samples.data()));
   if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
     image->isovalue = 0.0f;
     image->solid = SolidSide::kBelow;
@@ -69,17 +121,12 @@ Status densify(const Grid& grid, const char* stored, bool serial, VolumeImage* i
   return {};
 }
 
-Status densify_any(const openvdb::GridBase::Ptr& grid, bool serial, VolumeImage* image) {
-  if (auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
-    return densify(*g, "f32", serial, image);
-  if (auto g = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))
-    return densify(*g, "f64", serial, image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid))
-    return densify(*g, "i32", serial, image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int64Grid>(grid))
-    return densify(*g, "i64", serial, image);
-  if (auto g = openvdb::gridPtrCast<openvdb::BoolGrid>(grid))
-    return densify(*g, "bool", serial, image);
+Status densify_any(const openvdb::GridBase::Ptr& grid, VolumeImage* image) {
+  if (auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid)) return densify(*g, "f32", image);
+  if (auto g = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid)) return densify(*g, "f64", image);
+  if (auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid)) return densify(*g, "i32", image);
+  if (auto g = openvdb::gridPtrCast<openvdb::Int64Grid>(grid)) return densify(*g, "i64", image);
+  if (auto g = openvdb::gridPtrCast<openvdb::BoolGrid>(grid)) return densify(*g, "bool", image);
   return unsupported("");
 }
 
@@ -87,7 +134,7 @@ Status densify_any(const openvdb::GridBase::Ptr& grid, bool serial, VolumeImage*
 
 bool has_openvdb() { return true; }
 
-Status read_vdb(const std::string& path, VolumeImage* image, bool serial) {
+Status read_vdb(const std::string& path, VolumeImage* image) {
   if (Status s = check_readable(path); !s.ok()) return s;
   VolumeImage result;
   result.name = path;
@@ -105,7 +152,7 @@ Status read_vdb(const std::string& path, VolumeImage* image, bool serial) {
           meta->valueType() != "bool") {
         continue;
       }
-      const Status s = densify_any(file.readGrid(name.gridName()), serial, &result);
+      const Status s = densify_any(file.readGrid(name.gridName()), &result);
       if (s.code() == StatusCode::kUnsupported) continue;
       if (s.ok()) *image = std::move(result);
       return s;
@@ -131,19 +178,11 @@ Status write_vdb(const std::string& path, const FieldGrid& grid,
   const openvdb::CoordBBox box(
       openvdb::Coord(0), openvdb::Coord(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1));
   for (const NamedField& field : fields) {
-    auto g = openvdb::FloatGrid::create();
+    auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(
+        openvdb::GridBase::createGrid(openvdb::FloatGrid::gridType()));
     g->setName(field.name);
     g->setTransform(openvdb::math::Transform::createLinearTransform(m));
-    // Every voxel of the box counts, those equal to the background too.
-    g->denseFill(box, 0.0f, true);
-    auto voxels = g->getAccessor();
-    const float* value = field.values.data();
-    openvdb::Coord at;
-    for (at.z() = 0; at.z() < grid.size[2]; ++at.z()) {
-      for (at.y() = 0; at.y() < grid.size[1]; ++at.y()) {
-        for (at.x() = 0; at.x() < grid.size[0]; ++at.x()) voxels.setValueOn(at, *value++);
-      }
-    }
+    fill_voxels(field.values.data(), box, &g->tree());
     grids.push_back(g);
   }
   return write_atomically(path, [&](const std::string& temporary) -> Status {
@@ -153,21 +192,5 @@ Status write_vdb(const std::string& path, const FieldGrid& grid,
     return {};
   });
 }
-
-#else
-
-bool has_openvdb() { return false; }
-
-Status read_vdb(const std::string& path, VolumeImage*, bool) {
-  return unsupported(
-      fmt::format("{}: this build has no OpenVDB; build with OBSCURA_WITH_OPENVDB=ON", path));
-}
-
-Status write_vdb(const std::string& path, const FieldGrid&, std::span<const NamedField>) {
-  return unsupported(
-      fmt::format("{}: this build has no OpenVDB; build with OBSCURA_WITH_OPENVDB=ON", path));
-}
-
-#endif
 
 }  // namespace obscura::tools

@@ -3,22 +3,11 @@
 
 #include <optional>
 
+#include "io/images/view_size.h"
 #include "obscura/settings.h"
 #include "scene/rays/gbuffer.h"
 
 namespace obscura::tools {
-
-struct ImageSize {
-  int width = 640, height = 360;
-};
-
-// Pixels on the left and right, above and below; or a share of the visible size.
-struct GuardBandSpec {
-  bool per_cent = true;
-  double x = 10, y = 10;
-
-  GuardBand resolve(ImageSize visible) const;
-};
 
 // Options of a view, for procedural scenes and meshes. Options that are not set keep the scene's
 // own view, or show the whole mesh.
@@ -42,30 +31,11 @@ Status apply_options(const ViewOptions& options, ViewSpec* view);
 namespace obscura {
 
 template <>
-struct SettingText<tools::ImageSize> {
-  static constexpr const char* form = "WIDTHxHEIGHT in pixels, each in [1, 65535]";
-  static bool parse(std::string_view text, tools::ImageSize* value);
-  static std::string write(const tools::ImageSize& value);
-};
-template <>
-struct SettingText<tools::GuardBandSpec> {
-  static constexpr const char* form = "N, X,Y or N% (pixels, or per cent of the visible size)";
-  static bool parse(std::string_view text, tools::GuardBandSpec* value);
-  static std::string write(const tools::GuardBandSpec& value);
-};
-template <>
 struct SettingText<std::optional<tools::Vec3>> {
   static constexpr const char* form = "X,Y,Z";
   static bool parse(std::string_view text, std::optional<tools::Vec3>* value);
   static std::string write(const std::optional<tools::Vec3>& value);
 };
-template <>
-struct SettingText<std::optional<double>> {
-  static constexpr const char* form = "a positive number";
-  static bool parse(std::string_view text, std::optional<double>* value);
-  static std::string write(const std::optional<double>& value);
-};
-
 namespace tools {
 
 template <FieldsOf<ViewOptions> Self, class Visitor>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace obscura::tools {
 namespace {
 
@@ -21,6 +23,19 @@ Frame ViewSpec::frame() const {
   const Vec3 z = normalize(eye - look_at);
   const Vec3 x = normalize(cross(up, z));
   return {x, cross(z, x), z};
+}
+
+std::array<float, 9> world_from_eye(const Frame& frame, double heading, double pitch) {
+  const Vec3 axes[3] = {
+      {1, 0, 0}, {0, std::cos(pitch), std::sin(pitch)}, {0, -std::sin(pitch), std::cos(pitch)}};
+  std::array<float, 9> m;
+  for (int column = 0; column < 3; ++column) {
+    const Vec3 v = frame.to_world(axes[column]);
+    m[column] = float(std::cos(heading) * v.x - std::sin(heading) * v.z);
+    m[3 + column] = float(v.y);
+    m[6 + column] = float(std::sin(heading) * v.x + std::cos(heading) * v.z);
+  }
+  return m;
 }
 
 Status validate(const ViewSpec& v) {

@@ -1,6 +1,7 @@
 #ifndef OBSCURA_SCENE_VIEWS_VIEW_SPEC_H_
 #define OBSCURA_SCENE_VIEWS_VIEW_SPEC_H_
 
+#include <array>
 #include <numbers>
 
 #include "io/meshes/vec3.h"
@@ -23,6 +24,10 @@ struct ViewSpec {
   // Eye space in the world: x right, y up, z against the line of sight.
   Frame frame() const;
 };
+
+// Eye space to world space, row-major, of a camera that turns its heading to the right, in radians,
+// after its pitch upwards.
+std::array<float, 9> world_from_eye(const Frame& frame, double heading, double pitch);
 
 // Refuses sizes and angles out of range, an eye that is the point looked at, and a line of sight
 // along `up`.

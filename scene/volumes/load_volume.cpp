@@ -82,7 +82,7 @@ Status load(Format format, const std::string& spec, const std::optional<RawLayou
     case Format::kNrrd:
       return read_nrrd(spec, image);
     case Format::kVdb:
-      return read_vdb(spec, image, threads == 1);
+      return read_vdb(spec, image);
     case Format::kRaw:
       if (raw) return read_raw(spec, *raw, image);
       return invalid_argument(
@@ -114,10 +114,10 @@ Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw,
   }
 }
 
-Status describe_volume(const VolumeImage& image, nlohmann::ordered_json* description) {
+Status describe_volume(const VolumeImage& image, Json* description) {
   Histogram h;
   if (Status s = make_histogram(image, &h); !s.ok()) return s;
-  nlohmann::ordered_json d;
+  Json d;
   d["file"] = image.name;
   d["kind"] = "volume";
   d["format"] = image.format;
@@ -146,47 +146,48 @@ Status describe_volume(const VolumeImage& image, nlohmann::ordered_json* descrip
 }
 
 Status describe_volume(const std::string& spec, const std::optional<RawLayout>& raw,
-                       nlohmann::ordered_json* description) {
+                       Json* description) {
   VolumeImage image;
   if (Status s = load_volume(spec, raw, &image); !s.ok()) return s;
   return describe_volume(image, description);
 }
 
-std::string volume_description_text(const nlohmann::ordered_json& d) {
+std::string volume_description_text(const Json& d) {
   auto triple = [&](const char* key, const char* between) {
-    const auto& v = d[key];
-    return fmt::format("{1:g}{0}{2:g}{0}{3:g}", between, v[0].get<double>(), v[1].get<double>(),
-                       v[2].get<double>());
+    const Json::Array& v = d[key].elements();
+    return fmt::format("{1:g}{0}{2:g}{0}{3:g}", between, v[0].number(), v[1].number(),
+                       v[2].number());
   };
-  std::string out = fmt::format("{}: {}, {} voxels of {}\n", d["file"].get<std::string>(),
-                                d["format"].get<std::string>(), triple("size", "x"),
-                                d["type"].get<std::string>());
+  std::string out = fmt::format("{}: {}, {} voxels of {}\n", d["file"].text(), d["format"].text(),
+                                triple("size", "x"), d["type"].text());
   if (d.contains("slope")) {
-    out += fmt::format("  slope {:g}, intercept {:g}\n", d["slope"].get<double>(),
-                       d["intercept"].get<double>());
+    out +=
+        fmt::format("  slope {:g}, intercept {:g}\n", d["slope"].number(), d["intercept"].number());
   }
   out += fmt::format("  spacing {}, origin {}\n", triple("spacing", " x "), triple("origin", ", "));
   for (int a = 0; a < 3; ++a) {
-    const auto& v = d["axes"][a];
-    out += fmt::format("  {} axis ({:g}, {:g}, {:g})\n", "xyz"[a], v[0].get<double>(),
-                       v[1].get<double>(), v[2].get<double>());
+    const Json::Array& v = d["axes"].elements()[a].elements();
+    out += fmt::format("  {} axis ({:g}, {:g}, {:g})\n", "xyz"[a], v[0].number(), v[1].number(),
+                       v[2].number());
   }
-  out += fmt::format("  values {:g} to {:g}, mean {:g}; NaN {}, infinite {}\n",
-                     d["min"].get<double>(), d["max"].get<double>(), d["mean"].get<double>(),
-                     d["nan"].get<std::int64_t>(), d["infinite"].get<std::int64_t>());
+  out += fmt::format("  values {:g} to {:g}, mean {:g}; NaN {}, infinite {}\n", d["min"].number(),
+                     d["max"].number(), d["mean"].number(), std::int64_t(d["nan"].number()),
+                     std::int64_t(d["infinite"].number()));
   if (d.contains("isovalue")) {
-    out += fmt::format("  isovalue of its own {:g}, solid {}\n", d["isovalue"].get<double>(),
-                       d.contains("solid") ? d["solid"].get<std::string>() : "above");
+    out += fmt::format("  isovalue of its own {:g}, solid {}\n", d["isovalue"].number(),
+                       d.contains("solid") ? d["solid"].text() : "above");
   }
   if (d.contains("otsu_threshold")) {
-    out += fmt::format("  Otsu's threshold {:g}\n", d["otsu_threshold"].get<double>());
+    out += fmt::format("  Otsu's threshold {:g}\n", d["otsu_threshold"].number());
   }
   // Sixteen lines whose length is the logarithm of the count.
-  const auto counts = d["histogram"]["counts"].get<std::vector<std::int64_t>>();
-  const double first = d["histogram"]["first"], width = d["histogram"]["width"];
+  const Json& histogram = d["histogram"];
+  const Json::Array& counts = histogram["counts"].elements();
+  const double first = histogram["first"].number(), width = histogram["width"].number();
   const std::size_t lines = std::min<std::size_t>(16, counts.size());
   std::vector<std::int64_t> sums(lines);
-  for (std::size_t i = 0; i < counts.size(); ++i) sums[i * lines / counts.size()] += counts[i];
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    sums[i * lines / counts.size()] += std::int64_t(counts[i].number());
   const double most = double(*std::max_element(sums.begin(), sums.end()));
   for (std::size_t i = 0; i < lines; ++i) {
     const double from = first + width * std::ceil(double(i * counts.size()) / double(lines));

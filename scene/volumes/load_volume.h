@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "io/report/json.h"
 #include "io/volumes/volume_image.h"
-#include "nlohmann/json.hpp"
 
 namespace obscura::tools {
 
@@ -27,12 +27,12 @@ Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw,
 
 // What the volume holds: format, size, type, spacing, place in the world, range, counts of values
 // that are not finite, histogram and Otsu's threshold.
-Status describe_volume(const VolumeImage& image, nlohmann::ordered_json* description);
+Status describe_volume(const VolumeImage& image, Json* description);
 Status describe_volume(const std::string& spec, const std::optional<RawLayout>& raw,
-                       nlohmann::ordered_json* description);
+                       Json* description);
 
 // The same as lines of text, with the histogram drawn.
-std::string volume_description_text(const nlohmann::ordered_json& description);
+std::string volume_description_text(const Json& description);
 
 }  // namespace obscura::tools
 

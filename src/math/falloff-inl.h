@@ -28,9 +28,9 @@ HWY_INLINE V TableEntry(D d, const float* HWY_RESTRICT table, VI i, V t) {
   return hn::MulAdd(t, hn::Sub(b, a), a);
 }
 
-// rho of the distances x in [0, FLT_MAX].
+// rho of the distances x in [0, FLT_MAX], of one kind.
 template <FalloffKind kKind, class D, class V>
-HWY_INLINE V EvaluateRho(D d, const math::Rho& rho, V x) {
+HWY_INLINE V EvaluateKind(D d, const math::Rho& rho, V x) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::RebindToSigned<D> di;
   const V one = hn::Set(d, 1.0f);
@@ -66,6 +66,29 @@ HWY_INLINE V EvaluateRho(D d, const math::Rho& rho, V x) {
     const V a = hn::Set(d, rho.table[0]), b = hn::Set(d, rho.table[1]);
     const V near = hn::MulAdd(hn::Mul(x, hn::Set(d, 1 / kFirst)), hn::Sub(b, a), a);
     return hn::IfThenElse(hn::Lt(x, first), near, value);
+  }
+}
+
+// The kinds that gather from a table.
+template <class D, class V>
+HWY_NOINLINE V EvaluateTable(D d, const math::Rho& rho, V x) {
+  return rho.kind == FalloffKind::kTable ? EvaluateKind<FalloffKind::kTable>(d, rho, x)
+                                         : EvaluateKind<FalloffKind::kFunction>(d, rho, x);
+}
+
+// rho of the distances x in [0, FLT_MAX]; kKind is as with_falloff_kind() gives it.
+template <FalloffKind kKind, class D, class V>
+HWY_INLINE V EvaluateRho(D d, const math::Rho& rho, V x) {
+  if constexpr (kKind != math::kAnyFalloff) {
+    return EvaluateKind<kKind>(d, rho, x);
+  } else {
+    if (rho.kind == FalloffKind::kQuadratic) {
+      return EvaluateKind<FalloffKind::kQuadratic>(d, rho, x);
+    }
+    if (rho.kind == FalloffKind::kInverseSquare) {
+      return EvaluateKind<FalloffKind::kInverseSquare>(d, rho, x);
+    }
+    return EvaluateTable(d, rho, x);
   }
 }
 

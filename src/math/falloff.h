@@ -9,7 +9,7 @@
 namespace obscura::math {
 
 // rho(d) made ready for kernels: no callable, no division, every kind one short branch-free
-// expression. Kernels are instantiated per kind; math/falloff-inl.h has the same for lanes.
+// expression. math/falloff-inl.h has the same for lanes.
 //
 // d is a distance in [0, FLT_MAX]. A ray that meets nothing has no distance: rho is 0 for it, which
 // the caller knows and rho, being 1 everywhere for an infinite radius, does not.
@@ -40,7 +40,11 @@ Status make_rho(const Falloff& falloff, Rho* rho);
 // rho(d) for one distance.
 float evaluate(const Rho& rho, float d);
 
-// Calls f.template operator()<kind>() with the kind as a constant.
+// The kind of a kernel that asks rho for its kind as it runs.
+inline constexpr FalloffKind kAnyFalloff{-1};
+
+// Calls f.template operator()<kind>() with the kind as a constant where speed shows it, else with
+// kAnyFalloff: kernels take long to compile.
 template <class F>
 decltype(auto) with_falloff_kind(FalloffKind kind, F&& f) {
   switch (kind) {
@@ -48,16 +52,9 @@ decltype(auto) with_falloff_kind(FalloffKind kind, F&& f) {
       return f.template operator()<FalloffKind::kConstant>();
     case FalloffKind::kExponential:
       return f.template operator()<FalloffKind::kExponential>();
-    case FalloffKind::kQuadratic:
-      return f.template operator()<FalloffKind::kQuadratic>();
-    case FalloffKind::kInverseSquare:
-      return f.template operator()<FalloffKind::kInverseSquare>();
-    case FalloffKind::kTable:
-      return f.template operator()<FalloffKind::kTable>();
-    case FalloffKind::kFunction:
-      break;
+    default:
+      return f.template operator()<kAnyFalloff>();
   }
-  return f.template operator()<FalloffKind::kFunction>();
 }
 
 }  // namespace obscura::math

@@ -55,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     options.fov_y = {};  // now from the file's matrices
   }
-  nlohmann::ordered_json description;
+  tools::Json description;
   if (tools::describe_image(file.path(), &description).ok()) {
     tools::description_text(description);
   }

@@ -275,28 +275,28 @@ TEST_F(FilesTest, ADescriptionSaysWhatWouldBeUsed) {
   Image image = ramp(4, 4, {"Depth.Z", "N.X", "N.Y", "N.Z"});
   image.channels[0].values[3] = INFINITY;
   ASSERT_TRUE(write_exr(path("a.exr"), image, options).ok());
-  nlohmann::ordered_json json;
+  Json json;
   ASSERT_TRUE(describe_image(path("a.exr"), &json).ok());
   EXPECT_EQ(json["display_window"].dump(), "[1,1,2,2]");
-  EXPECT_EQ(json["depth"], "Depth.Z");
-  EXPECT_EQ(json["normals"], "N.X N.Y N.Z");
-  EXPECT_EQ(json["channels"][0]["finite"], 15);
-  EXPECT_EQ(json["channels"][0]["min"], 0.125);
-  EXPECT_NE(json["camera"].get<std::string>().find("fov-y"), std::string::npos);
+  EXPECT_EQ(json["depth"].text(), "Depth.Z");
+  EXPECT_EQ(json["normals"].text(), "N.X N.Y N.Z");
+  EXPECT_EQ(json["channels"].elements()[0]["finite"].number(), 15);
+  EXPECT_EQ(json["channels"].elements()[0]["min"].number(), 0.125);
+  EXPECT_NE(json["camera"].text().find("fov-y"), std::string::npos);
   EXPECT_NE(description_text(json).find("Depth.Z"), std::string::npos);
 }
 
 TEST_F(MatrixTest, ADescriptionSaysTheFieldOfView) {
   ASSERT_TRUE(load(kIdentity, kToNdc).ok());
-  nlohmann::ordered_json json;
+  Json json;
   ASSERT_TRUE(describe_image(path("m.exr"), &json).ok());
   // Half the height is 1/3 of depth: 2 atan(1/3) = 36.8699 degrees.
-  EXPECT_NE(json["camera"].get<std::string>().find("fov-y 36.8699"), std::string::npos);
+  EXPECT_NE(json["camera"].text().find("fov-y 36.8699"), std::string::npos);
 }
 
 TEST_F(FilesTest, NamesThatAreNoTextAreDescribed) {
   ASSERT_TRUE(write_image(path("a.exr"), ramp(2, 2, {"\x1b[2J\xff", "Z"})).ok());
-  nlohmann::ordered_json json;
+  Json json;
   ASSERT_TRUE(describe_image(path("a.exr"), &json).ok());
   const std::string text = description_text(json);
   EXPECT_EQ(text.find('\x1b'), std::string::npos);

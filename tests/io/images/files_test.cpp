@@ -8,10 +8,10 @@
 
 #include "io/images/depth_file.h"
 #include "io/images/exr.h"
-#include "io/images/gbuffer_file.h"
 #include "io/images/hdr.h"
 #include "io/images/pfm.h"
 #include "io/images/png.h"
+#include "scene/views/gbuffer_file.h"
 #include "tests/io/images/files_fixture.h"
 
 namespace obscura::tools {

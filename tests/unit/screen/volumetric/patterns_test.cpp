@@ -42,22 +42,6 @@ TEST(Patterns, CenterIsTheCenter) {
   }
 }
 
-TEST(Patterns, TablesAreWhatTheGeneratorMakes) {
-  PatternSettings settings;
-  settings.count = 5;
-  for (const bool center : {false, true}) {
-    settings.center = center;
-    std::vector<DiskSample> disk;
-    ASSERT_TRUE(make_disk_pattern(settings, &disk).ok());
-    for (int i = 0; i < 5; ++i) {
-      const DiskSample& shipped = disk_pattern(5, center)[i];
-      EXPECT_NEAR(disk[i].x, shipped.x, 1e-5);
-      EXPECT_NEAR(disk[i].y, shipped.y, 1e-5);
-      EXPECT_NEAR(disk[i].weight_constant, shipped.weight_constant, 1e-4);
-    }
-  }
-}
-
 // Two samples of the ball that mirror each other share it evenly.
 TEST(Patterns, MirroredSamplesWeighTheSame) {
   std::vector<BallSample> ball = {{0.3137f, 0.2071f, -0.1019f, 0, 0},

@@ -1,4 +1,4 @@
-#include "reproduce/vdb_distance.h"
+#include "scene/volumes/vdb_distance.h"
 
 #ifdef OBSCURA_WITH_OPENVDB
 #include <openvdb/openvdb.h>

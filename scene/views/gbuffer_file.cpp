@@ -1,4 +1,4 @@
-#include "io/images/gbuffer_file.h"
+#include "scene/views/gbuffer_file.h"
 
 #include "fmt/format.h"
 #include "io/images/exr.h"

@@ -1,15 +1,10 @@
-#include "bench/run_benchmarks.h"
-
+// obscura-bench: Google Benchmark, with its own flags.
 #include <benchmark/benchmark.h>
 
-namespace obscura::bench {
-
-int run(int argc, char** argv) {
+int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;
 }
-
-}  // namespace obscura::bench

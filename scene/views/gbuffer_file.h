@@ -1,5 +1,5 @@
-#ifndef OBSCURA_IO_IMAGES_GBUFFER_FILE_H_
-#define OBSCURA_IO_IMAGES_GBUFFER_FILE_H_
+#ifndef OBSCURA_SCENE_VIEWS_GBUFFER_FILE_H_
+#define OBSCURA_SCENE_VIEWS_GBUFFER_FILE_H_
 
 #include <string>
 
@@ -17,4 +17,4 @@ Status write_gbuffer(const std::string& path, const DepthInput& input, const Vie
 
 }  // namespace obscura::tools
 
-#endif  // OBSCURA_IO_IMAGES_GBUFFER_FILE_H_
+#endif  // OBSCURA_SCENE_VIEWS_GBUFFER_FILE_H_

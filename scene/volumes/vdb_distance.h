@@ -1,5 +1,5 @@
-#ifndef OBSCURA_REPRODUCE_VDB_DISTANCE_H_
-#define OBSCURA_REPRODUCE_VDB_DISTANCE_H_
+#ifndef OBSCURA_SCENE_VOLUMES_VDB_DISTANCE_H_
+#define OBSCURA_SCENE_VOLUMES_VDB_DISTANCE_H_
 
 #include "obscura/volume.h"
 
@@ -14,4 +14,4 @@ Status openvdb_distance(const VolumeView& volume, float isovalue, int threads,
 
 }  // namespace obscura::tools
 
-#endif  // OBSCURA_REPRODUCE_VDB_DISTANCE_H_
+#endif  // OBSCURA_SCENE_VOLUMES_VDB_DISTANCE_H_

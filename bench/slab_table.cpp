@@ -8,29 +8,29 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/slab-inl.h"
+#include "math/slice-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura::bench {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace om = obscura::HWY_NAMESPACE;
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
 void ByQuadrature(const math::Rho& rho, const SliceSet& set, float* HWY_RESTRICT out) {
   const D d;
+  leaf::SliceIntegral<FalloffKind::kExponential, false, SliceSums::kVisibility> slices(rho);
   for (int s = 0; s < set.count; s += static_cast<int>(hn::Lanes(d))) {
-    const auto slice = om::MakeSlice(d, hn::LoadU(d, &set.nz[s]), hn::LoadU(d, &set.nt[s]),
-                                     hn::LoadU(d, &set.camera[s]), hn::Set(d, 1.0f));
-    auto h = om::StartHorizon(d, slice, true);
+    const leaf::Slice slice = leaf::make_slice(hn::LoadU(d, &set.nz[s]), hn::LoadU(d, &set.nt[s]),
+                                               hn::LoadU(d, &set.camera[s]), hn::Set(d, 1.0f));
+    leaf::Horizon h = slices.start_horizon(slice, true);
     for (int i = 0; i < set.points; ++i) {
       const V x = hn::LoadU(d, &set.x[i * set.count + s]);
       const V y = hn::LoadU(d, &set.y[i * set.count + s]);
-      om::AddPoint<FalloffKind::kExponential, false, false>(
-          d, rho, slice, x, y, hn::Ge(x, hn::Zero(d)), hn::Set(d, 1.0f), h);
+      slices.add_point(slice, x, y, hn::Ge(x, hn::Zero(d)), false, hn::Set(d, 1.0f), h);
     }
     hn::StoreU(h.sum, d, out + s);
   }
@@ -53,7 +53,7 @@ HWY_INLINE void LookUp(const SlabTable& t, const Cell& cell, V angle, V* lc, V* 
   auto pair = [&](int offset, V* c, V* s) HWY_ATTR {
     HWY_ALIGN std::int32_t index[HWY_MAX_BYTES / sizeof(float)];
     hn::Store(hn::Add(corner, hn::Set(di, offset)), di, index);
-    om::GatherPairs(d, t.pairs.data(), index, c, s);
+    obscura::HWY_NAMESPACE::GatherPairs(d, t.pairs.data(), index, c, s);
   };
   auto blend = [&](V weight, V a, V b) HWY_ATTR { return hn::MulAdd(weight, hn::Sub(b, a), a); };
   auto along_a = [&](int offset, V* c, V* s) HWY_ATTR {
@@ -77,38 +77,42 @@ HWY_INLINE void LookUp(const SlabTable& t, const Cell& cell, V angle, V* lc, V* 
   *ls = blend(tb, s0, s1);
 }
 
+// What a slice starts with does not know rho.
+const math::Rho kNoRho;
+
 void ByTable(const SlabTable& t, const SliceSet& set, float* HWY_RESTRICT out) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), tiny = hn::Set(d, 1e-30f);
+  leaf::SliceIntegral<FalloffKind::kExponential, false, SliceSums::kVisibility> slices(kNoRho);
   for (int s = 0; s < set.count; s += static_cast<int>(hn::Lanes(d))) {
-    const auto slice = om::MakeSlice(d, hn::LoadU(d, &set.nz[s]), hn::LoadU(d, &set.nt[s]),
-                                     hn::LoadU(d, &set.camera[s]), one);
-    auto h = om::StartHorizon(d, slice, true);
+    const leaf::Slice slice = leaf::make_slice(hn::LoadU(d, &set.nz[s]), hn::LoadU(d, &set.nt[s]),
+                                               hn::LoadU(d, &set.camera[s]), one);
+    leaf::Horizon h = slices.start_horizon(slice, true);
     for (int i = 0; i < set.points; ++i) {
       const V x = hn::LoadU(d, &set.x[i * set.count + s]);
       const V y = hn::LoadU(d, &set.y[i * set.count + s]);
-      const V inverse = om::FastInverseSqrt(d, hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), tiny));
+      const V inverse = leaf::leaf_inverse_sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), tiny));
       const V cosine = hn::Min(hn::Mul(y, inverse), one);
       const M visible = hn::And(hn::Ge(x, zero), hn::Gt(cosine, h.cosine));
       if (!hn::AllFalse(d, visible)) {
         const M clipped = hn::Xor(hn::Lt(slice.nz, zero), hn::Le(cosine, slice.edge_cosine));
-        const V angle = hn::IfThenElse(clipped, slice.edge_angle, om::leaf::fast_acos(cosine));
+        const V angle = hn::IfThenElse(clipped, slice.edge_angle, leaf::fast_acos(cosine));
         const V ex = x, ey = hn::Sub(y, slice.camera);
-        const V scale = om::FastInverseSqrt(d, hn::Max(hn::MulAdd(ex, ex, hn::Mul(ey, ey)), tiny));
+        const V scale = leaf::leaf_inverse_sqrt(hn::Max(hn::MulAdd(ex, ex, hn::Mul(ey, ey)), tiny));
         const V b = hn::Mul(hn::Abs(hn::MulSub(x, ey, hn::Mul(y, ex))), scale);
-        const V c = om::leaf::fast_acos(hn::Clamp(hn::Mul(ey, scale), hn::Set(d, -1.0f), one));
-        const V share = hn::Mul(b, om::FastReciprocal(d, hn::Add(b, hn::Set(d, t.radius))));
+        const V c = leaf::fast_acos(hn::Clamp(hn::Mul(ey, scale), hn::Set(d, -1.0f), one));
+        const V share = hn::Mul(b, leaf::leaf_reciprocal(hn::Add(b, hn::Set(d, t.radius))));
         const V last = hn::Set(d, static_cast<float>(t.size - 1));
         const Cell cell{hn::Mul(c, hn::Mul(last, hn::Set(d, std::numbers::inv_pi_v<float>))),
                         hn::Mul(hn::Sqrt(share), last)};
         V low_c, low_s, high_c, high_s;
         LookUp(t, cell, angle, &low_c, &low_s);
-        LookUp(t, cell, h.angle_c, &high_c, &high_s);
+        LookUp(t, cell, h.edge.angle, &high_c, &high_s);
         const V piece =
             hn::MulAdd(slice.nz, hn::Sub(high_c, low_c), hn::Mul(slice.nt, hn::Sub(high_s, low_s)));
         h.sum = hn::Add(h.sum, hn::IfThenElseZero(visible, hn::Max(piece, zero)));
         h.cosine = hn::IfThenElse(visible, cosine, h.cosine);
-        h.angle_c = hn::IfThenElse(visible, angle, h.angle_c);
+        h.edge.angle = hn::IfThenElse(visible, angle, h.edge.angle);
       }
     }
     hn::StoreU(h.sum, d, out + s);

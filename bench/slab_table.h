@@ -19,7 +19,7 @@ struct SlabTable {
 };
 
 // Many slices, point by point: the i-th point of slice s is (x, y)[i * count + s], x < 0 where
-// there is none. In the slice's frame (math/slab-inl.h).
+// there is none. In the slice's frame (math/slice_leaf.h).
 struct SliceSet {
   int count = 0, points = 0;
   std::vector<float> x, y, nz, nt, camera;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formatting, layering, plain words and clang-tidy. usage: tools/lint.sh BUILD_FOLDER (with compile_commands.json)
+# Formatting, layering, plain words, twins and clang-tidy. usage: tools/lint.sh BUILD_FOLDER (with compile_commands.json)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=$1
@@ -12,6 +12,8 @@ tools/check_layers.sh
 tools/check_layers_test.sh
 tools/check_words.sh
 tools/check_words_test.sh
+tools/check_twins.sh
+tools/check_twins_test.sh
 
 # Kernels (*_simd.cpp) include themselves once per SIMD target, which clang-tidy cannot follow. The
 # tools' large header-only libraries take it the better part of a minute per file, so they are

@@ -1,8 +1,7 @@
 #ifndef OBSCURA_CONE_H_
 #define OBSCURA_CONE_H_
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "obscura/settings.h"
 
@@ -32,30 +31,33 @@ struct EnumNames<ConeEstimate> {
 
 // cos(alpha) of the cap whose mean unoccluded direction has this length; 0, an open hemisphere,
 // where the length is below 1/2 or NaN, and 1 where it is above 1.
-inline float cone_cosine(float mean_length) {
-  return std::min(std::max(0.0f, 2 * mean_length - 1), 1.0f);
-}
+float cone_cosine(float mean_length);
 
-// Half-angle in radians, in [0, pi/2], of the bent cone from |N_ss|.
-inline float cone_angle(ConeEstimate estimate, float mean_length) {
-  const float c = cone_cosine(mean_length);
-  return estimate == ConeEstimate::kExact ? std::acos(c) : (1 - c) * 1.57079632679f;
-}
+// Half-angle in radians, in [0, pi/2], of the bent cone from |N_ss|. Its error is below 1e-6.
+float cone_angle(ConeEstimate estimate, float mean_length);
 
 // cos(alpha) of the cap whose cosine-weighted mean direction has this length m: the inverse of
 // m = 2/3 (1 + c + c^2) / (1 + c). 0 where m is below 2/3, 1 where it is above 1.
-inline float cone_cosine_of_cosine_mean(float mean_length) {
-  const float k = std::min(1 - 1.5f * std::min(mean_length, 1.0f), 0.0f);  // c^2 + k c + k = 0
-  return std::min(0.5f * (std::sqrt(k * (k - 4)) - k), 1.0f);
-}
+float cone_cosine_of_cosine_mean(float mean_length);
 
 // The factor from N_ss to N, equation 2; `ambient_occlusion` is the uniform visibility in [0, 1].
 inline float uniform_integral_factor(float ambient_occlusion) { return 2 * ambient_occlusion; }
 
-// The length of N_ss where N has this length; 1/2, as where all is open, where nothing is visible.
-inline float mean_length_of_uniform_integral(float length, float ambient_occlusion) {
-  return ambient_occlusion > 0 ? length / (2 * ambient_occlusion) : 0.5f;
-}
+// The length of N_ss where N has this length; 1, as of the narrowest opening, where nothing is
+// visible.
+float mean_length_of_uniform_integral(float length, float ambient_occlusion);
+
+// Bent normal, a unit vector, and the half-angle of its cone.
+struct BentCone {
+  std::array<float, 3> direction;
+  float angle;
+};
+
+// From N, the uniform visibility and the unit normal. A closed point, no direction of which is open
+// (visibility 0, or |N| at most 1e-3), gets its normal and the angle 0: a cone with nothing open.
+// Every method says the same of a closed point, on the processor and on Vulkan.
+BentCone bent_cone(ConeEstimate estimate, const std::array<float, 3>& integral,
+                   float ambient_occlusion, const std::array<float, 3>& normal);
 
 }  // namespace obscura
 

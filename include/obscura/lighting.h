@@ -145,8 +145,8 @@ OBSCURA_API Status light(const LightingInputs& inputs, const PreconvolvedEnviron
 
 // Bent normal and cone whose cosine-weighted moments are those given, pixel by pixel: for light
 // that is linear in direction the bent cone is then exact under any visibility. `cosine_integral`
-// is Outputs::cosine_integral and `visibility` its cosine-weighted visibility. Outputs may be
-// inputs.
+// is Outputs::cosine_integral and `visibility` its cosine-weighted visibility. The angle is 0 where
+// that is 0 (obscura/cone.h). Outputs may be inputs.
 OBSCURA_API Status cones_from_cosine_integral(const ImageView<const float>& visibility,
                                               const VectorView<const float>& cosine_integral,
                                               const VectorView<float>& bent_normal,

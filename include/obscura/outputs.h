@@ -14,7 +14,8 @@ struct Outputs {
   // Mean unoccluded direction over the hemisphere, uniform weights (Klehm et al. 2011,
   // section 3.1), as a unit vector in eye space.
   VectorView<float> bent_normal{};
-  // Half-angle in radians, [0, pi/2], of the cone around bent_normal.
+  // Half-angle in radians, [0, pi/2], of the cone around bent_normal. A closed point, no direction
+  // of which is open, has its normal as bent_normal and the angle 0 (obscura/cone.h).
   ImageView<float> cone_angle{};
   // Uniform integral N (bent normals and cones, equation 2): length 1 and along the normal where
   // all is open; carries ambient occlusion.

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "obscura/cone.h"
 #include "scene/scenes/random.h"
 #include "scene/truth/fill_between.h"
 #include "scene/truth/hemisphere.h"
@@ -247,7 +248,7 @@ Status trace_geometric(const Rendering& rendering, const GeometricSettings& sett
     const double open = length(by_area.direction);
     set(outputs.bent_normal, x, y, open > 0 ? by_area.direction / open : tracer.normal(i));
     const double mean = by_area.visibility > 0 ? open / by_area.visibility : 1;
-    set(outputs.cone_angle, x, y, std::acos(std::clamp(2 * mean - 1, 0.0, 1.0)));
+    set(outputs.cone_angle, x, y, cone_angle(ConeEstimate::kExact, static_cast<float>(mean)));
   };
 
   constexpr int kSpan = 16;  // pixels of a task

@@ -15,3 +15,23 @@ LEAF(Real) edge_weight(Real gap) {
   Real near = leaf_nfma(gap, gap, real(1.0f));
   return leaf_if_less(real(0.0f), near, near * near, real(0.0f));
 }
+
+// How many edges lie in a unit of the surface's values: differences of 1/depth are differences of
+// depth times -1/depth^2.
+LEAF(Real) edges_per_unit(Real surface, Real inverse_edge, bool parallel) {
+  return parallel ? inverse_edge : inverse_edge / (surface * surface);
+}
+
+// From the surface of tap k to the continuation of the receiver's, in edges.
+LEAF(Real) gap_to_surface(Real tap, Real surface, Real slope, Real k, Real per_unit) {
+  return (tap - leaf_fma(slope, k, surface)) * per_unit;
+}
+
+// Binomial weights of the bilateral blur's 9 taps, by distance.
+const float kBinomial[5] = LEAF_LIST(70.0f, 56.0f, 28.0f, 8.0f, 1.0f);
+
+// What a tap of the interleaved blur weighs, by its gap and by how alike the normals are.
+LEAF(Real) weight_of_tap(Real gap, Real alike) {
+  Real sharp = alike * alike;
+  return leaf_where(leaf_less(real(0.0f), alike), edge_weight(gap) * (sharp * sharp));
+}

@@ -9,6 +9,7 @@
 // After foreach_target.
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -16,6 +17,7 @@ namespace lighting {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
 using D = hn::ScalableTag<float>;
 using DI = hn::RebindToSigned<D>;
 using D4 = hn::FixedTag<float, 4>;
@@ -237,11 +239,9 @@ void CosineCones(const float* visibility, const float* const integral[3], int wi
     const V whole = hn::LoadU(d, visibility + x);
     const V length = hn::Sqrt(Dot(v, v));
     const Vector unit = Unit(v, {zero, zero, one});
-    // As cone_cosine_of_cosine_mean; a mean of 2/3, an open cone, where nothing is visible.
-    const V mean = hn::IfThenElse(hn::Gt(whole, zero), hn::Min(hn::Div(length, whole), one), zero);
-    const V k = hn::Min(hn::NegMulAdd(hn::Set(d, 1.5f), mean, one), zero);
-    const V root = hn::Sqrt(hn::Mul(k, hn::Sub(k, hn::Set(d, 4.0f))));
-    const V cosine = hn::Min(hn::Mul(hn::Set(d, 0.5f), hn::Sub(root, k)), one);
+    // The narrowest opening, a cone with nothing open, where nothing is visible.
+    const V mean = hn::IfThenElse(hn::Gt(whole, zero), hn::Div(length, whole), one);
+    const V cosine = leaf::cap_cosine_of_cosine_mean(mean);
     hn::StoreU(unit.x, d, direction[0] + x);
     hn::StoreU(unit.y, d, direction[1] + x);
     hn::StoreU(unit.z, d, direction[2] + x);

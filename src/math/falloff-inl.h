@@ -1,4 +1,4 @@
-// rho(d) over Highway lanes (math/falloff.h); included once per SIMD target.
+// rho(d) over Highway lanes (math/falloff_leaf.h); included once per SIMD target.
 #if defined(OBSCURA_SRC_MATH_FALLOFF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef OBSCURA_SRC_MATH_FALLOFF_INL_H_
 #undef OBSCURA_SRC_MATH_FALLOFF_INL_H_
@@ -12,84 +12,62 @@
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 #include "math/falloff.h"
+#include "math/fast-inl.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
 
-// Entries i and i + 1 of a table, linearly blended by t. `d` is any tag of float lanes.
-template <class D, class V, class VI>
-HWY_INLINE V TableEntry(D d, const float* HWY_RESTRICT table, VI i, V t) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::RebindToSigned<D> di;
-  HWY_ALIGN std::int32_t index[HWY_MAX_BYTES / sizeof(float)];
-  hn::Store(i, di, index);
-  const V a = GatherLanes(d, table, index), b = GatherLanes(d, table + 1, index);
-  return hn::MulAdd(t, hn::Sub(b, a), a);
-}
+#include "math/falloff_kinds_leaf.h"
 
-// rho of the distances x in [0, FLT_MAX], of one kind.
-template <FalloffKind kKind, class D, class V>
-HWY_INLINE V EvaluateKind(D d, const math::Rho& rho, V x) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::RebindToSigned<D> di;
-  const V one = hn::Set(d, 1.0f);
-  if constexpr (kKind == FalloffKind::kConstant) {
-    return hn::IfThenElseZero(hn::Le(x, hn::Set(d, rho.radius)), one);
-  } else if constexpr (kKind == FalloffKind::kExponential) {
-    return hn::Exp(d, hn::Neg(hn::Mul(x, hn::Set(d, rho.inverse_radius))));
-  } else if constexpr (kKind == FalloffKind::kQuadratic) {
-    const V rest = hn::Max(hn::Zero(d), hn::NegMulAdd(x, hn::Set(d, rho.inverse_radius), one));
-    return hn::Mul(rest, rest);
-  } else if constexpr (kKind == FalloffKind::kInverseSquare) {
-    const V t = hn::Mul(x, hn::Set(d, rho.inverse_radius));
-    return hn::Div(one, hn::MulAdd(t, t, one));
-  } else if constexpr (kKind == FalloffKind::kTable) {
-    const V t = hn::Min(hn::Mul(x, hn::Set(d, rho.entries_per_length)),
-                        hn::Set(d, static_cast<float>(rho.last_entry)));
-    const auto i = hn::ConvertTo(di, t);
-    const V value = TableEntry(d, rho.table.data(), i, hn::Sub(t, hn::ConvertTo(d, i)));
-    return hn::IfThenElseZero(hn::Le(x, hn::Set(d, rho.radius)), value);
-  } else {
-    using math::Rho;
-    constexpr int kFractionBits = 23 - Rho::kBitsPerOctave;
-    constexpr float kFirst = 1.0f / (1ull << 32) / (1ull << 32);
-    constexpr float kLast = 4294967296.0f * 4294967296.0f;
-    static_assert(Rho::kMinExponent == -64 && Rho::kMaxExponent == 64);
-    const V first = hn::Set(d, kFirst);
-    const auto bits = hn::BitCast(di, hn::Min(hn::Max(x, first), hn::Set(d, kLast)));
-    const auto i = hn::Sub(hn::ShiftRight<kFractionBits>(bits),
-                           hn::Set(di, ((Rho::kMinExponent + 127) << Rho::kBitsPerOctave) - 1));
-    const V t = hn::Mul(hn::ConvertTo(d, hn::And(bits, hn::Set(di, (1 << kFractionBits) - 1))),
-                        hn::Set(d, 1.0f / (1 << kFractionBits)));
-    const V value = TableEntry(d, rho.table.data(), i, t);
-    const V a = hn::Set(d, rho.table[0]), b = hn::Set(d, rho.table[1]);
-    const V near = hn::MulAdd(hn::Mul(x, hn::Set(d, 1 / kFirst)), hn::Sub(b, a), a);
-    return hn::IfThenElse(hn::Lt(x, first), near, value);
+// The falloff's kind, known when a kernel is compiled or only when it runs (math::kAnyFalloff).
+template <FalloffKind kKind>
+struct KindOfRho {
+  static constexpr int kFalloff = static_cast<int>(kKind);
+  HWY_INLINE explicit KindOfRho(const math::Rho&) {}
+};
+template <>
+struct KindOfRho<math::kAnyFalloff> {
+  const int kFalloff;
+  HWY_INLINE explicit KindOfRho(const math::Rho& rho) : kFalloff(static_cast<int>(rho.kind)) {}
+};
+
+// What falloff_leaf.h reads of a math::Rho. `kFast`: the exponential of math/fast-inl.h.
+template <FalloffKind kKind, bool kFast>
+struct RhoLanes : KindOfRho<kKind> {
+  using KindOfRho<kKind>::kFalloff;
+  const math::Rho& rho;
+
+  HWY_INLINE explicit RhoLanes(const math::Rho& r) : KindOfRho<kKind>(r), rho(r) {}
+
+  LEAF(Real) rho_radius() { return real(rho.radius); }
+  LEAF(Real) rho_inverse_radius() { return real(rho.inverse_radius); }
+  LEAF(Real) rho_entries_per_length() { return real(rho.entries_per_length); }
+  LEAF(Real) rho_last_entry() { return real(static_cast<float>(rho.last_entry)); }
+  LEAF(Real) rho_entry(int i) { return real(rho.table[i]); }
+  LEAF(Real) rho_between(Int i, Real t) {
+    const D d;
+    HWY_ALIGN std::int32_t index[HWY_MAX_BYTES / sizeof(float)];
+    hn::Store(i, DI(), index);
+    const float* HWY_RESTRICT table = rho.table.data();
+    const Real a = GatherLanes(d, table, index), b = GatherLanes(d, table + 1, index);
+    return leaf_fma(t, b - a, a);
   }
-}
+  LEAF(Real) rho_exp_negative(Real t) {
+    if constexpr (kFast) return FastExpNegative(D(), t);
+    return hn::Exp(D(), hn::Neg(t));
+  }
+#include "math/falloff_leaf.h"
+};
 
-// The kinds that gather from a table.
-template <class D, class V>
-HWY_NOINLINE V EvaluateTable(D d, const math::Rho& rho, V x) {
-  return rho.kind == FalloffKind::kTable ? EvaluateKind<FalloffKind::kTable>(d, rho, x)
-                                         : EvaluateKind<FalloffKind::kFunction>(d, rho, x);
-}
+}  // namespace leaf
 
 // rho of the distances x in [0, FLT_MAX]; kKind is as with_falloff_kind() gives it.
-template <FalloffKind kKind, class D, class V>
-HWY_INLINE V EvaluateRho(D d, const math::Rho& rho, V x) {
-  if constexpr (kKind != math::kAnyFalloff) {
-    return EvaluateKind<kKind>(d, rho, x);
-  } else {
-    if (rho.kind == FalloffKind::kQuadratic) {
-      return EvaluateKind<FalloffKind::kQuadratic>(d, rho, x);
-    }
-    if (rho.kind == FalloffKind::kInverseSquare) {
-      return EvaluateKind<FalloffKind::kInverseSquare>(d, rho, x);
-    }
-    return EvaluateTable(d, rho, x);
-  }
+template <FalloffKind kKind>
+HWY_INLINE leaf::Real EvaluateRho(const math::Rho& rho, leaf::Real x) {
+  return leaf::RhoLanes<kKind, false>(rho).rho_of(x);
 }
 
 }  // namespace HWY_NAMESPACE

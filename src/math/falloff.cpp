@@ -6,33 +6,43 @@
 #include <limits>
 
 #include "core/text.h"
+#include "math/leaf_scalar.h"
+
+namespace obscura::leaf_scalar {
+namespace {
+
+using namespace math;
+
+// What falloff_leaf.h reads of a math::Rho.
+struct RhoScalar {
+  const Rho& rho;
+  const int kFalloff = static_cast<int>(rho.kind);
+
+  LEAF(Real) rho_radius() { return rho.radius; }
+  LEAF(Real) rho_inverse_radius() { return rho.inverse_radius; }
+  LEAF(Real) rho_entries_per_length() { return rho.entries_per_length; }
+  LEAF(Real) rho_last_entry() { return static_cast<float>(rho.last_entry); }
+  LEAF(Real) rho_entry(int i) { return rho.table[i]; }
+  LEAF(Real) rho_between(Int i, Real t) {
+    return leaf_fma(t, rho.table[i + 1] - rho.table[i], rho.table[i]);
+  }
+  LEAF(Real) rho_exp_negative(Real t) { return std::exp(-t); }
+#include "math/falloff_leaf.h"
+};
+
+}  // namespace
+}  // namespace obscura::leaf_scalar
 
 namespace obscura::math {
 namespace {
 
-constexpr int kMantissaBits = 23;
-constexpr int kFractionBits = kMantissaBits - Rho::kBitsPerOctave;
-constexpr std::int32_t kFirstKnot = (Rho::kMinExponent + 127) << Rho::kBitsPerOctave;
-
-float from_table(const Rho& rho, float d) {
-  const float t = std::min(d * rho.entries_per_length, static_cast<float>(rho.last_entry));
-  const auto i = static_cast<int>(t);
-  const float value = rho.table[i] + (t - i) * (rho.table[i + 1] - rho.table[i]);
-  return d <= rho.radius ? value : 0.0f;
-}
-
-// A float's upper bits count knots, the rest is the place between two of them.
-float from_function_table(const Rho& rho, float d) {
-  const float first = std::ldexp(1.0f, Rho::kMinExponent);
-  const float inside = std::clamp(d, first, std::ldexp(1.0f, Rho::kMaxExponent));
-  const auto bits = std::bit_cast<std::int32_t>(inside);
-  const std::int32_t i = 1 + (bits >> kFractionBits) - kFirstKnot;
-  const float t =
-      static_cast<float>(bits & ((1 << kFractionBits) - 1)) * (1.0f / (1 << kFractionBits));
-  const float value = rho.table[i] + t * (rho.table[i + 1] - rho.table[i]);
-  const float near = rho.table[0] + (d / first) * (rho.table[1] - rho.table[0]);
-  return d < first ? near : value;
-}
+constexpr std::int32_t kFirstKnotBits = (kFirstOctave + 127) << kKnotBits;
+static_assert(kKnotBits + kFractionBits == 23);
+static_assert(kConstantRho == int(FalloffKind::kConstant) &&
+              kExponentialRho == int(FalloffKind::kExponential) &&
+              kQuadraticRho == int(FalloffKind::kQuadratic) &&
+              kInverseSquareRho == int(FalloffKind::kInverseSquare) &&
+              kTableRho == int(FalloffKind::kTable) && kFunctionRho == int(FalloffKind::kFunction));
 
 Status sample_function(const Falloff& falloff, Rho* rho) {
   rho->table.clear();
@@ -48,7 +58,7 @@ Status sample_function(const Falloff& falloff, Rho* rho) {
   };
   sample(0.0f);
   for (std::int32_t k = 0; k < Rho::kFunctionKnots; ++k) {
-    sample(std::bit_cast<float>((kFirstKnot + k) << kFractionBits));
+    sample(std::bit_cast<float>((kFirstKnotBits + k) << kFractionBits));
   }
   rho->table.push_back(rho->table.back());
   return status;
@@ -75,25 +85,6 @@ Status make_rho(const Falloff& falloff, Rho* rho) {
   return {};
 }
 
-float evaluate(const Rho& rho, float d) {
-  const float t = d * rho.inverse_radius;
-  switch (rho.kind) {
-    case FalloffKind::kConstant:
-      return d <= rho.radius ? 1.0f : 0.0f;
-    case FalloffKind::kExponential:
-      return std::exp(-t);
-    case FalloffKind::kQuadratic: {
-      const float rest = std::max(0.0f, 1 - t);
-      return rest * rest;
-    }
-    case FalloffKind::kInverseSquare:
-      return 1 / (1 + t * t);
-    case FalloffKind::kTable:
-      return from_table(rho, d);
-    case FalloffKind::kFunction:
-      break;
-  }
-  return from_function_table(rho, d);
-}
+float evaluate(const Rho& rho, float d) { return leaf_scalar::RhoScalar{rho}.rho_of(d); }
 
 }  // namespace obscura::math

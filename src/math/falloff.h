@@ -8,8 +8,10 @@
 
 namespace obscura::math {
 
+#include "math/falloff_kinds_leaf.h"
+
 // rho(d) made ready for kernels: no callable, no division, every kind one short branch-free
-// expression. math/falloff-inl.h has the same for lanes.
+// expression (math/falloff_leaf.h).
 //
 // d is a distance in [0, FLT_MAX]. A ray that meets nothing has no distance: rho is 0 for it, which
 // the caller knows and rho, being 1 everywhere for an infinite radius, does not.
@@ -20,8 +22,8 @@ namespace obscura::math {
 // second derivative there (exp(-d/R): 1.7e-5; a jump is smeared over one interval). Nearer than the
 // first knot it is linear from rho(0), farther than the last it is constant.
 struct Rho {
-  static constexpr int kBitsPerOctave = 6, kPerOctave = 1 << kBitsPerOctave;
-  static constexpr int kMinExponent = -64, kMaxExponent = 64;
+  static constexpr int kBitsPerOctave = kKnotBits, kPerOctave = 1 << kBitsPerOctave;
+  static constexpr int kMinExponent = kFirstOctave, kMaxExponent = kLastOctave;
   static constexpr int kFunctionKnots = (kMaxExponent - kMinExponent) * kPerOctave + 1;
 
   FalloffKind kind = FalloffKind::kExponential;

@@ -18,7 +18,8 @@ LEAF(Real) fast_acos(Real x) {
   return leaf_if_negative(x, real(3.14159265f) - r, r);
 }
 
-// Antiderivatives at theta, times sin theta, the width of a slice, in the frame of math/slab-inl.h.
+// Antiderivatives at theta, times sin theta, the width of a slice, in the frame of
+// math/slice_leaf.h.
 
 // F(theta), the integral of (nz cos t + nt sin t) sin t from 0 to theta: what rho = 1 obscures.
 LEAF(Real) cosine_integral(Real nz, Real nt, Real sine, Real cosine, Real angle) {

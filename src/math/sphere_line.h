@@ -4,15 +4,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/leaf_cpp.h"
+
+// The words of math/sphere_line_leaf.h in double, for tables.
+namespace obscura::leaf_double {
+
+using Real = double;
+
+LEAF(Real) real(double x) { return x; }
+LEAF(Real) leaf_abs(Real x) { return std::abs(x); }
+LEAF(Real) leaf_sqrt(Real x) { return std::sqrt(x); }
+LEAF(Real) leaf_log(Real x) { return std::log(x); }
+LEAF(Real) leaf_fma(Real a, Real b, Real c) { return a * b + c; }
+LEAF(Real) leaf_copysign(Real magnitude, Real z) { return std::copysign(magnitude, z); }
+#include "math/sphere_line_leaf.h"
+
+}  // namespace obscura::leaf_double
+
 namespace obscura::math {
 
-// Integral of rho(r) = (1 - r)^2 along a line of the unit sphere from its middle to z, where the
-// line passes the centre at distance `lateral`:
-//   z (1 + l^2) + z^3/3 - z sqrt(l^2 + z^2) - l^2 asinh(z/l), an odd function of z.
-inline double quadratic_line(double z, double lateral) {
-  const double l = std::max(lateral, 1e-12), square = l * l;
-  return z * (1 + square) + z * z * z / 3 - z * std::sqrt(square + z * z) -
-         square * std::asinh(z / l);
+// As the leaf function, for any lateral >= 0.
+inline double quadratic_line_integral(double z, double lateral) {
+  return leaf_double::quadratic_line(z, std::max(lateral, 1e-12));
 }
 
 }  // namespace obscura::math

@@ -2,17 +2,17 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/depth_leaf.h"
 #include "view/depth_io.h"
 #include "gpu/view.glsl"
 
 // `reversed` is 1 near and 0 far, `forward` the opposite; both keep precision at their own end.
 float from_ndc(float reversed, float forward) {
   if (!(reversed > 0.0 && forward >= 0.0)) return kInf;
-  if (view.orthographic != 0) return view.near_plane * reversed + view.far_plane * forward;
-  return isinf(view.far_plane)
-             ? view.near_plane / reversed
-             : view.near_plane * view.far_plane /
-                   (view.near_plane * forward + view.far_plane * reversed);
+  return depth_of_ndc(reversed, forward, view.near_plane, view.far_plane, view.orthographic != 0,
+                      isinf(view.far_plane));
 }
 
 void main() {
@@ -23,7 +23,7 @@ void main() {
   if (kDepthKind == 1 && view.orthographic == 0) {
     const float a = (float(p.x) + 0.5 - view.center_u) * view.scale_x;
     const float b = (view.center_v - (float(p.y) + 0.5)) * view.scale_y;
-    d = v / sqrt(1.0 + a * a + b * b);
+    d = depth_of_distance(v, a, b);
   }
   if (kDepthKind == 2) d = from_ndc(1.0 - v, v);
   if (kDepthKind == 3) d = from_ndc(v, 1.0 - v);

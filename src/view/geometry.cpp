@@ -6,10 +6,16 @@
 #include <cstdint>
 
 #include "core/text.h"
+#include "math/leaf_scalar.h"
 #include "view/check_view.h"
 #include "view/normals.h"
 
-namespace obscura::view {
+namespace obscura {
+namespace leaf_scalar {
+#include "view/depth_leaf.h"
+}  // namespace leaf_scalar
+
+namespace view {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -87,7 +93,7 @@ class DepthConversion {
         const float b = (camera_.center_v - (y + 0.5f)) * camera_.scale_y;
         return each(in, step, width, out, [&](float v, int x) {
           const float a = (x + 0.5f - camera_.center_u) * camera_.scale_x;
-          return v / std::sqrt(1 + a * a + b * b);
+          return leaf_scalar::depth_of_distance(v, a, b);
         });
       }
       case DepthKind::kNdc:
@@ -107,13 +113,12 @@ class DepthConversion {
       out[x] = std::isnan(v) || d >= far_ ? kInf : surface;
     }
   }
-  // `reversed` is 1 near and 0 far, `forward` the opposite; both keep precision at their own end.
   float from_ndc(float reversed, float forward) const {
     if (std::isinf(forward)) return forward > 0 && kind_ == DepthKind::kNdc ? kInf : kNan;
     if (!(reversed >= 0 && forward >= 0)) return kNan;
     if (reversed <= 0) return kInf;
-    if (camera_.orthographic) return near_ * reversed + far_ * forward;
-    return std::isinf(far_) ? near_ / reversed : near_ * far_ / (near_ * forward + far_ * reversed);
+    return leaf_scalar::depth_of_ndc(reversed, forward, near_, far_, camera_.orthographic,
+                                     std::isinf(far_));
   }
 
   static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -219,4 +224,5 @@ Status convert(const DepthField& field, const Needs& needs, Executor& executor,
   return {};
 }
 
-}  // namespace obscura::view
+}  // namespace view
+}  // namespace obscura

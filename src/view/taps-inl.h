@@ -19,9 +19,9 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "view/taps_leaf.h"
-#undef LEAF
+// After taps_leaf.h.
+#include "view/receiver_leaf.h"
 }  // namespace leaf
 
 namespace taps {
@@ -37,8 +37,6 @@ constexpr int kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 // then the sums, so that no load has to wait for an index that was stored just before.
 constexpr int kVectors = 4;
 
-// A tap can lie this many pixels away, more than any image is wide; it keeps coordinates finite.
-constexpr float kMaxReach = 131072.0f;
 // Rounds to the nearest integer, ties to even, by adding 1.5 * 2^23 and taking the bits: the
 // integer plus kRoundBias, for |v| < 2^22. Rounding to even treats mirror images alike.
 constexpr float kRound = 12582912.0f;
@@ -53,21 +51,25 @@ struct Vec3 {
   V x, y, z;
 };
 
-// Values of one vector of pixels that all its taps use.
-struct Receivers {
-  // The first pixel is (x, y) of the whole image; z are the depths.
-  HWY_INLINE Receivers(const view::TapFrame& f, int x, int y, V depth) : z(depth) {
-    const D d;
-    const DI di;
-    const Camera& c = f.camera;
-    const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
-    distance = c.orthographic ? one : z;
-    const V max_reach = hn::Set(d, kMaxReach);
-    // Only one division: it is the most expensive operation per pixel.
-    const V least = hn::Set(d, 1e-37f), per_distance = hn::Div(one, hn::Max(distance, least));
-    reach_x = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_x), per_distance), max_reach);
-    reach_y = hn::Min(hn::Mul(hn::Set(d, f.radius / c.scale_y), per_distance), max_reach);
+HWY_INLINE leaf::TapView ViewOf(const view::TapFrame& f) {
+  const D d;
+  const Camera& c = f.camera;
+  return {hn::Set(d, c.scale_x),
+          hn::Set(d, c.scale_y),
+          hn::Set(d, c.center_u),
+          hn::Set(d, c.center_v),
+          hn::Set(d, f.radius / c.scale_x),
+          hn::Set(d, f.radius / c.scale_y),
+          c.orthographic};
+}
 
+// What one vector of pixels has in common for all its taps: view/receiver_leaf.h and indices.
+struct Receivers : leaf::TapReceiver {
+  // The first pixel is (x, y) of the whole image; z are the depths.
+  HWY_INLINE Receivers(const view::TapFrame& f, int x, int y, V depth)
+      : TapReceiver(leaf::make_tap_receiver(ViewOf(f), hn::ConvertTo(D(), hn::Iota(DI(), x)),
+                                            hn::Set(D(), static_cast<float>(y)), depth)) {
+    const DI di;
     column = hn::Iota(di, x);
     const VI bias = hn::Set(di, kRoundBias);
     biased_x = hn::Sub(column, bias);
@@ -77,28 +79,9 @@ struct Receivers {
     min_y = hn::Set(di, -(f.height / 2));
     max_y = hn::Set(di, f.height - 1 - f.height / 2);
     stride = hn::Set(di, static_cast<std::int32_t>(f.stride));
-
-    scale_x = hn::Set(d, c.scale_x);
-    scale_y = hn::Set(d, c.scale_y);
-    step_a = hn::Mul(perspective, scale_x);
-    step_b = hn::Mul(perspective, scale_y);
-    a = hn::Mul(step_a, hn::Sub(hn::ConvertTo(d, column), hn::Set(d, c.center_u - 0.5f)));
-    b = hn::Mul(perspective, hn::Set(d, (c.center_v - (y + 0.5f)) * c.scale_y));
-    this->perspective = perspective;
   }
 
-  // Prepares the tangent plane; the normal is bent to face the camera.
-  HWY_INLINE void SetNormal(Vec3* n) {
-    const D d;
-    facing = hn::MulAdd(n->x, a, hn::MulSub(n->y, b, n->z));
-    const V bend = leaf::bend_to_camera(facing, a, b);
-    n->x = hn::NegMulAdd(bend, a, n->x);
-    n->y = hn::NegMulAdd(bend, b, n->y);
-    n->z = hn::Add(n->z, bend);
-    facing = hn::Min(facing, hn::Set(d, leaf::kEdgeOn));
-    plane_x = hn::Mul(n->x, scale_x);
-    plane_y = hn::Mul(n->y, scale_y);
-  }
+  HWY_INLINE void SetNormal(const Vec3& n) { leaf::set_tap_normal(n.x, n.y, n.z, *this); }
 
   // The texel nearest to (du, dv) pixels from the receiver, y down, given with kRound added; or the
   // border's texel where that is outside the image.
@@ -116,35 +99,6 @@ struct Receivers {
     *ky = hn::ConvertTo(d, hn::Sub(iy, row));
   }
 
-  // The tangent plane and the texel's ray r' = (a', b', -1), or (0, 0, -1) where rays are parallel:
-  // `q` is n.(r - r') or its like, `slope` n.r'. The plane's depth on r' is z + distance q / slope
-  // if slope < 0; otherwise the ray does not hit it in front of the camera. The point at depth
-  // z + t on r' is at height t slope - distance q above the plane.
-  HWY_INLINE void Plane(V kx, V ky, V* q, V* slope) const {
-    *q = hn::MulSub(plane_y, ky, hn::Mul(plane_x, kx));
-    *slope = hn::NegMulAdd(perspective, *q, facing);
-  }
-
-  // The texel's ray.
-  HWY_INLINE void Ray(V kx, V ky, V* ta, V* tb) const {
-    *ta = hn::MulAdd(kx, step_a, a);
-    *tb = hn::NegMulAdd(ky, step_b, b);
-  }
-  // How much deeper than its front the back of an occluder lies that is `thickness` thick along the
-  // texel's ray.
-  HWY_INLINE V DepthOfThickness(V kx, V ky, float thickness) const {
-    V ta, tb;
-    Ray(kx, ky, &ta, &tb);
-    return leaf::depth_of_thickness(hn::Set(D(), thickness), ta, tb);
-  }
-
-  V z;
-  V distance;          // z, or 1 where rays are parallel
-  V reach_x, reach_y;  // the radius in pixels
-  V perspective;       // 1, or 0 where rays are parallel
-  V a, b;              // the receiver's ray (a, b, -1)
-  V scale_x, scale_y, step_a, step_b;
-  V facing, plane_x, plane_y;  // n.r < 0, and n.x, n.y times a pixel's size
   VI column, row, biased_x, biased_y, max_x, min_y, max_y, stride;
 };
 

@@ -1,5 +1,5 @@
-// Leaf functions, C++ and GLSL: see math/leaf-inl.h. No include guard, for it is included once per
-// SIMD target. The ray of a pixel is (a, b, -1).
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h; after math/azimuth_leaf.h. No include guard,
+// for it is included once per SIMD target. The ray of a pixel is (a, b, -1).
 
 // Normals that turn away from the camera more than this (times the ray's length) are bent back to
 // it: a visible surface cannot face away, but an interpolated normal can.
@@ -18,5 +18,5 @@ LEAF(Real) bend_to_camera(Real facing, Real a, Real b) {
 // How much deeper than its front the back of an occluder lies that is `thickness` thick along the
 // ray.
 LEAF(Real) depth_of_thickness(Real thickness, Real a, Real b) {
-  return thickness / leaf_sqrt(leaf_fma(a, a, leaf_fma(b, b, real(1.0f))));
+  return thickness / length_of_ray(a, b);
 }

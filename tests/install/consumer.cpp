@@ -3,6 +3,10 @@
 #include <cstdio>
 #include <vector>
 
+#if OBSCURA_VERSION < OBSCURA_MAKE_VERSION(0, 1, 0)
+#error "these headers are older than this consumer"
+#endif
+
 int main() {
   std::vector<float> depth(64 * 48, 3.0f), visibility(64 * 48);
   obscura::DepthField field{.depth = {depth.data(), 64, 48}};

@@ -146,7 +146,8 @@ TEST(Reference, SeedsDifferAsTheirErrorsSay) {
   }
 }
 
-// All open: the lengths that outputs.h states. All closed: the normal and an open cone.
+// All open: the lengths that outputs.h states. All closed: the normal and a cone
+// with nothing open.
 TEST(Reference, DirectionsOfOpenAndClosedHemispheres) {
   const Camera camera = Camera::perspective(1.0f, 20, 20, {});
   const double tilt = 0.8, flat = std::sqrt(1 - tilt * tilt);
@@ -170,6 +171,7 @@ TEST(Reference, DirectionsOfOpenAndClosedHemispheres) {
   Result dark(closed.field());
   ASSERT_TRUE(compute(closed.field(), s, dark.outputs).ok());
   EXPECT_NEAR(dark.values[0][i], 0, 2e-3);
+  EXPECT_EQ(dark.values[1][i], 0);
 }
 
 TEST(Reference, CancelledRunsSaySo) {

@@ -10,7 +10,6 @@
 #include "gpu/view.glsl"
 
 const int kReach = 4;
-const float kWeights[kReach + 1] = float[](70, 56, 28, 8, 1);
 const int kStride = kTileWidth + 2 * kReach, kRows = kTileHeight + 2 * kReach;
 
 shared float surfaces[kRows * kStride];  // linear on planes; 0: background or outside
@@ -40,21 +39,21 @@ struct Receiver {
 Receiver receiver_at(int i, int step) {
   const float s = surfaces[i], last = surfaces[i - step], next = surfaces[i + step];
   const float after = next > 0.0 ? next - s : kInf, before = last > 0.0 ? s - last : kInf;
-  const float scale = view.orthographic != 0 ? 1.0 : s * s;
-  return Receiver(s, surface_slope(after, before), 1.0 / view.edge / scale);
+  return Receiver(s, surface_slope(after, before),
+                  edges_per_unit(s, 1.0 / view.edge, view.orthographic != 0));
 }
 
 float tap_weight(Receiver r, int i, int step, int k) {
   const float s = surfaces[i + k * step];
-  const float gap = (s - (r.slope * float(k) + r.surface)) * r.per_edge;
-  return s > 0.0 ? edge_weight(gap) * kWeights[abs(k)] : 0.0;
+  const float gap = gap_to_surface(s, r.surface, r.slope, float(k), r.per_edge);
+  return s > 0.0 ? edge_weight(gap) * kBinomial[abs(k)] : 0.0;
 }
 
 float blur_row(int i) {
   const float v0 = inputs[i];
   if (!(surfaces[i] > 0.0)) return v0;
   const Receiver r = receiver_at(i, 1);
-  float sum = 0.0, weights = kWeights[0];
+  float sum = 0.0, weights = kBinomial[0];
   for (int k = -kReach; k <= kReach; ++k) {
     if (k == 0) continue;
     const float w = tap_weight(r, i, 1, k);
@@ -68,7 +67,7 @@ float blur_row(int i) {
 float blur_column(int i, int j) {
   const Receiver r = receiver_at(i, kStride);
   const float v0 = blurred[j];
-  float sum = 0.0, weights = kWeights[0];
+  float sum = 0.0, weights = kBinomial[0];
   for (int k = -kReach; k <= kReach; ++k) {
     if (k == 0) continue;
     const float w = tap_weight(r, i, kStride, k);

@@ -13,17 +13,12 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "filters/edge_leaf.h"
-#undef LEAF
 }  // namespace leaf
 
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-
-// Binomial weights of 9 taps, by distance.
-constexpr float kWeights[5] = {70, 56, 28, 8, 1};
 
 HWY_INLINE hn::Mask<D> IsSurface(V s) {
   const D d;
@@ -60,18 +55,15 @@ void BilateralPixels(const BilateralRow& row, int width, float* HWY_RESTRICT out
     const V after = difference(has_after, row.surface_step, 1.0f);
     const V before = difference(has_before, -row.surface_step, -1.0f);
     const V slope = leaf::surface_slope(after, before);
-    // Differences of 1/depth are differences of depth times -1/depth^2.
-    V per_edge = hn::Set(d, 1 / row.edge);
-    if (!row.orthographic) per_edge = hn::Div(per_edge, hn::Mul(s0, s0));
+    const V per_edge = leaf::edges_per_unit(s0, hn::Set(d, 1 / row.edge), row.orthographic);
 
-    V sum = zero, weight_sum = hn::Set(d, kWeights[0]);
+    V sum = zero, weight_sum = hn::Set(d, leaf::kBinomial[0]);
     for (int k = row.first_tap; k <= row.last_tap; ++k) {
       if (k == 0) continue;
       const V v = hn::LoadU(d, values + k * row.value_step);
       const V s = hn::LoadU(d, surface + k * row.surface_step);
-      const V expected = hn::MulAdd(slope, hn::Set(d, static_cast<float>(k)), s0);
-      const V gap = hn::Mul(hn::Sub(s, expected), per_edge);
-      const V weight = hn::Mul(leaf::edge_weight(gap), hn::Set(d, kWeights[k < 0 ? -k : k]));
+      const V gap = leaf::gap_to_surface(s, s0, slope, hn::Set(d, static_cast<float>(k)), per_edge);
+      const V weight = hn::Mul(leaf::edge_weight(gap), hn::Set(d, leaf::kBinomial[k < 0 ? -k : k]));
       const V w = hn::IfThenElseZero(IsSurface(s), weight);
       sum = hn::MulAdd(w, hn::Sub(v, v0), sum);
       weight_sum = hn::Add(weight_sum, w);

@@ -6,6 +6,7 @@
 #include "math/leaf_glsl.h"
 #include "filters/edge_leaf.h"
 #include "math/slab_leaf.h"
+#include "math/cone_leaf.h"
 #include "filters/interleaved/interleaved_io.h"
 #include "gpu/direction_result.glsl"
 #include "gpu/view.glsl"
@@ -48,12 +49,10 @@ float slope_at(int i, int step) {
 // alike the normals are.
 float tap_weight(int i, int k, int step, float slope, float per_edge, vec3 n) {
   const float s = surface[i + k * step];
-  const float gap = (s - (slope * float(k) + surface[i])) * per_edge;
-  const float near = edge_weight(gap);
-  if (!(s > 0.0 && near > 0.0)) return 0.0;
-  const float alike = max(dot(n, normal_at(i + k * step)), 0.0);
-  const float sharp = alike * alike;
-  return near * sharp * sharp * (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
+  const float gap = gap_to_surface(s, surface[i], slope, float(k), per_edge);
+  if (!(s > 0.0)) return 0.0;
+  return weight_of_tap(gap, dot(n, normal_at(i + k * step))) *
+         (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
 }
 
 float edge() {
@@ -62,7 +61,7 @@ float edge() {
 }
 
 float per_edge_at(int i) {
-  return view.orthographic != 0 ? 1.0 / edge() : 1.0 / edge() / (surface[i] * surface[i]);
+  return edges_per_unit(surface[i], 1.0 / edge(), view.orthographic != 0);
 }
 
 void blur_rows() {
@@ -106,20 +105,13 @@ void store_direction(ivec2 p, vec3 direction, float angle) {
   write_direction(p, vec4(stored, angle / 1.57079633));
 }
 
-// math/cone-inl.h, FinishCone.
 void finish_direction(ivec2 p, vec3 n, vec3 difference, float seen) {
   float open = seen;
-  if (kCosineOpen) open = max(seen - 2.0 * dot(n, difference), 0.0);
-  const vec3 sum = 0.5 * open * n + difference;
-  const float square = dot(sum, sum), least = open * 1e-6;
-  vec3 direction = n;
-  float mean = 0.0;
-  if (square > least * least && open > 0.0) {
-    direction = sum * inversesqrt(square);
-    mean = sqrt(square) / max(open, 1e-37);
-  }
-  const float c = clamp(2.0 * mean - 1.0, 0.0, 1.0);
-  store_direction(p, direction, kPaperCone ? (1.0 - c) * 1.57079633 : fast_acos(c));
+  if (kCosineOpen) open = uniform_open(seen, dot(n, difference));
+  const vec3 integral = open * n + 2.0 * difference;
+  const BentCone cone = bent_cone(kPaperCone, integral.x, integral.y, integral.z, 2.0 * open, n.x,
+                                  n.y, n.z);
+  store_direction(p, vec3(cone.x, cone.y, cone.z), cone.angle);
 }
 
 void main() {

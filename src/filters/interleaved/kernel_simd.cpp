@@ -7,16 +7,13 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/cone-inl.h"
 #include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "filters/edge_leaf.h"
-#undef LEAF
 }  // namespace leaf
 
 namespace {
@@ -45,7 +42,7 @@ HWY_INLINE M IsSurface(V s) {
 template <int kCount>
 void BlurPixels(const BlurRow& row, int width) {
   const D d;
-  const V zero = hn::Zero(d), inf = hn::Set(d, kInf);
+  const V inf = hn::Set(d, kInf);
   const int lanes = static_cast<int>(hn::Lanes(d));
   const bool before_inside = row.first_tap < 0;
   const bool after_inside = row.last_tap > 0;
@@ -60,8 +57,7 @@ void BlurPixels(const BlurRow& row, int width) {
     const V after = difference(after_inside, row.surface_step, 1.0f);
     const V before = difference(before_inside, -row.surface_step, -1.0f);
     const V slope = leaf::surface_slope(after, before);
-    V per_edge = hn::Set(d, 1 / row.edge);
-    if (!row.orthographic) per_edge = hn::Div(per_edge, hn::Mul(s0, s0));
+    const V per_edge = leaf::edges_per_unit(s0, hn::Set(d, 1 / row.edge), row.orthographic);
     const V nx = hn::LoadU(d, row.normal[0] + x), ny = hn::LoadU(d, row.normal[1] + x);
     const V nz = hn::LoadU(d, row.normal[2] + x);
 
@@ -70,17 +66,14 @@ void BlurPixels(const BlurRow& row, int width) {
     for (int k = row.first_tap; k <= row.last_tap; ++k) {
       if (k == 0) continue;
       const V s = hn::LoadU(d, surface + k * row.surface_step);
-      const V gap =
-          hn::Mul(hn::Sub(s, hn::MulAdd(slope, hn::Set(d, static_cast<float>(k)), s0)), per_edge);
+      const V gap = leaf::gap_to_surface(s, s0, slope, hn::Set(d, static_cast<float>(k)), per_edge);
       const std::ptrdiff_t at = x + k * row.normal_step;
       const V alike = hn::MulAdd(nx, hn::LoadU(d, row.normal[0] + at),
                                  hn::MulAdd(ny, hn::LoadU(d, row.normal[1] + at),
                                             hn::Mul(nz, hn::LoadU(d, row.normal[2] + at))));
-      const auto counts = hn::And(IsSurface(s), hn::Gt(alike, zero));
-      const V sharp = hn::Mul(alike, alike);
-      const V w =
-          hn::IfThenElseZero(counts, hn::Mul(hn::Mul(leaf::edge_weight(gap), hn::Mul(sharp, sharp)),
-                                             hn::Set(d, row.weights[k < 0 ? -k : k])));
+      const V w = hn::IfThenElseZero(
+          IsSurface(s),
+          hn::Mul(leaf::weight_of_tap(gap, alike), hn::Set(d, row.weights[k < 0 ? -k : k])));
       weight_sum = hn::Add(weight_sum, w);
       for (int c = 0; c < kCount; ++c) {
         sum[c] = hn::MulAdd(w, hn::LoadU(d, row.values[c] + x + k * row.value_step), sum[c]);
@@ -128,20 +121,20 @@ void FinishUniform(const Finish& finish, const float* const sums[kChannels],
                    hn::LoadU(d, normal[2] + x)};
     V open = visible;
     if (finish.cosine_open) {
-      // n.(1/pi integral of V w) = open + 2 n.(x, y, z) is the cosine-weighted visibility.
       const V along = hn::MulAdd(
           n.x, hn::LoadU(d, sums[1] + x),
           hn::MulAdd(n.y, hn::LoadU(d, sums[2] + x), hn::Mul(n.z, hn::LoadU(d, sums[3] + x))));
-      open = hn::Max(hn::NegMulAdd(hn::Set(d, 2.0f), along, visible), hn::Zero(d));
+      open = leaf::uniform_open(visible, along);
     }
     const Vector s = Rebuild(sums, open, n, 0.5f, x);
-    const BentCone<V> cone =
-        FinishCone(d, finish.paper_cone, DirectionSums<V>{s.x, s.y, s.z, open}, n.x, n.y, n.z);
-    StoreVector({cone.x, cone.y, cone.z}, out.direction, x);
-    if (out.angle) hn::StoreU(cone.angle, d, out.angle + x);
     // 1/pi integral of V w = 2 mean V w.
     const V two = hn::Set(d, 2.0f);
-    StoreVector({hn::Mul(two, s.x), hn::Mul(two, s.y), hn::Mul(two, s.z)}, out.integral, x);
+    const Vector integral{hn::Mul(two, s.x), hn::Mul(two, s.y), hn::Mul(two, s.z)};
+    const leaf::BentCone cone = leaf::bent_cone(finish.paper_cone, integral.x, integral.y,
+                                                integral.z, hn::Mul(two, open), n.x, n.y, n.z);
+    StoreVector({cone.x, cone.y, cone.z}, out.direction, x);
+    if (out.angle) hn::StoreU(cone.angle, d, out.angle + x);
+    StoreVector(integral, out.integral, x);
   }
 }
 

@@ -7,20 +7,23 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/fast-inl.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "filters/edge_leaf.h"
+// After edge_leaf.h.
+#include "filters/upsampling/upsampling_leaf.h"
+}  // namespace leaf
+
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
-
-// A neighbour whose normal is at right angles counts this much of one whose normal is the same.
-constexpr float kLeastAlike = 1e-3f;
 
 HWY_INLINE M IsSurface(V s) {
   const D d;
@@ -33,13 +36,12 @@ HWY_INLINE V Alike(const UpsamplingRow& row, int x, std::ptrdiff_t step) {
   for (const float* normal : row.normal) {
     cosine = hn::MulAdd(hn::LoadU(d, normal + x), hn::LoadU(d, normal + x + step), cosine);
   }
-  const V square = hn::Mul(cosine, cosine);
-  return hn::MulAdd(square, square, hn::Set(d, kLeastAlike));
+  return leaf::likeness(cosine);
 }
 
 void Upsample(const UpsamplingRow& row, int width) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V zero = hn::Zero(d);
   const M odd = hn::Gt(hn::Mul(hn::Iota(d, 0), hn::Set(d, 0.5f)),
                        hn::Floor(hn::Mul(hn::Iota(d, 0), hn::Set(d, 0.5f))));
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
@@ -49,18 +51,9 @@ void Upsample(const UpsamplingRow& row, int width) {
                   HWY_ATTR { return there ? hn::LoadU(d, surface + step) : zero; };
     const V before = at(row.before, -row.surface_step), after = at(row.after, row.surface_step);
     const M has_before = IsSurface(before), has_after = IsSurface(after);
-    const V down = hn::Sub(s0, before), up = hn::Sub(after, s0);
-    // The nearer one goes on by its own slope; how far from it the other lies is what both slopes
-    // differ by.
-    const M nearer_after = hn::Or(hn::AndNot(has_before, has_after),
-                                  hn::And(has_after, hn::Lt(hn::Abs(up), hn::Abs(down))));
-    const V scale = row.orthographic ? one : hn::Max(s0, hn::Set(d, 1e-30f));
-    const V gap = hn::Div(hn::Sub(up, down), hn::Mul(scale, hn::Set(d, row.edge)));
-    const V near = hn::NegMulAdd(gap, gap, one);
-    V other = hn::IfThenElseZero(hn::Gt(near, zero), hn::Mul(near, near));
-    other = hn::IfThenElseZero(hn::And(has_before, has_after), other);
-    V w_before = hn::IfThenElse(nearer_after, other, one);
-    V w_after = hn::IfThenElse(nearer_after, one, other);
+    const leaf::SideWeights sides = leaf::side_weights(s0, before, after, has_before, has_after,
+                                                       hn::Set(d, row.edge), row.orthographic);
+    V w_before = sides.before, w_after = sides.after;
     if (row.normal[0]) {
       if (row.before) w_before = hn::Mul(w_before, Alike(row, x, -row.normal_step));
       if (row.after) w_after = hn::Mul(w_after, Alike(row, x, row.normal_step));

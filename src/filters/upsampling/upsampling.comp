@@ -2,12 +2,13 @@
 // filled in along surfaces, kernel_simd.cpp in GLSL, first along the seen rows and then between them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/leaf_glsl.h"
+#include "filters/edge_leaf.h"
+#include "filters/upsampling/upsampling_leaf.h"
 #include "filters/upsampling/upsampling_io.h"
 #include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
 #include "gpu/view.glsl"
-
-const float kLeastAlike = 1e-3;
 
 struct Value {
   float visibility;
@@ -24,8 +25,7 @@ float surface_at(ivec2 p) {
 vec3 normal_at(ivec2 p) { return normals[p.y * view.visible_width + p.x].xyz; }
 
 float alike(ivec2 p, ivec2 q) {
-  const float cosine = dot(normal_at(p), normal_at(q));
-  return cosine * cosine * cosine * cosine + kLeastAlike;
+  return likeness(dot(normal_at(p), normal_at(q)));
 }
 
 // What the neighbours before and after weigh; both 0: there are none.
@@ -33,10 +33,9 @@ vec2 weights(ivec2 p, ivec2 step, float pixel) {
   const float s = surface_at(p), before = surface_at(p - step), after = surface_at(p + step);
   if (!(before > 0.0)) return vec2(0.0, after > 0.0 ? 1.0 : 0.0);
   if (!(after > 0.0)) return vec2(1.0, 0.0);
-  const float down = s - before, up = after - s;
-  const float gap = (up - down) / ((view.orthographic != 0 ? 1.0 : s) * view.edge * pixel);
-  const float near = max(1.0 - gap * gap, 0.0);
-  vec2 w = abs(up) < abs(down) ? vec2(near * near, 1.0) : vec2(1.0, near * near);
+  const SideWeights sides =
+      side_weights(s, before, after, true, true, view.edge * pixel, view.orthographic != 0);
+  vec2 w = vec2(sides.before, sides.after);
   if (kNormals) w *= vec2(alike(p, p - step), alike(p, p + step));
   return w;
 }

@@ -19,9 +19,6 @@ vec2 plane_center() {
   return is_transposed() ? center.yx : center;
 }
 
-// Neighbours whose matter is this share of their depth apart still belong together (scan.h).
-float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }
-
 // A direction in the tables: four quads.
 struct Direction {
   int sign_v, group, strip_offset, lines;

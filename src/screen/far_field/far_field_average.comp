@@ -2,10 +2,9 @@
 // neighbours see the pixel's surface, and their mean depth and normal.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/far_field/groups_leaf.h"
 #include "screen/far_field/far_field_average_io.h"
 #include "gpu/view.glsl"
-
-const float kLeastCosine = 0.5, kDepthRatio = 0.03;
 
 float depth_at(ivec2 p) { return depth[(p.y + view.top) * view.width + p.x + view.left]; }
 
@@ -24,8 +23,7 @@ void main() {
     const ivec2 n = p + ivec2(bit % 3, bit / 3) - 1;
     if (any(lessThan(n, ivec2(0))) || any(greaterThanEqual(n, size))) continue;
     const float other = depth_at(n);
-    // The background is in no group.
-    if (!(own < kInf && abs(other - own) <= kDepthRatio * own)) continue;
+    if (!same_depth(own, other)) continue;
     const vec3 m = normals[n.y * size.x + n.x].xyz;
     if (dot(m, normal) <= kLeastCosine && bit != 4) continue;
     mask |= 1u << bit;

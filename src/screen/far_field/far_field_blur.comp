@@ -4,6 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
+#include "math/cone_leaf.h"
+#include "screen/far_field/groups_leaf.h"
 #include "screen/far_field/far_field_blur_io.h"
 #include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
@@ -14,7 +16,7 @@ const int kReach = 2;
 #include "screen/far_field/far_field_outputs.glsl"
 #include "screen/far_field/far_field_totals.glsl"
 
-const float kWeights[] = float[](1, 2, 3, 2, 1), kThreshold = 0.07 * kPi, kDepthRatio = 0.03;
+const int kReach = kBlurReach;
 const int kStride = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
 
 shared vec2 tile[kRows * kStride];  // obscurance, depth; no depth outside
@@ -44,11 +46,8 @@ void main() {
     const ivec2 d = ivec2(i % 5, i / 5);
     const ivec2 k = d - kReach;
     const vec2 other = tile[at + k.y * kStride + k.x];
-    if (!(other.y < kInf && abs(other.x - own.x) <= kThreshold &&
-          abs(other.y - own.y) <= kDepthRatio * own.y)) {
-      continue;
-    }
-    const float weight = kWeights[d.x] * kWeights[d.y];
+    if (!blurs(own.x, other.x, own.y, other.y)) continue;
+    const float weight = blur_weight(abs(k.x), abs(k.y));
     weights += weight;
     if (kSums == 0) {
       sums.obscurance += weight * other.x;

@@ -11,14 +11,14 @@ void add_taps(Receiver r, Part part, Reads reads, Place place, inout Horizon h) 
     const float along = uintBitsToFloat(tap.x);
     const vec2 weight = uintBitsToFloat(tap.yz);
     const int i = place.texel + (int(tap.w) >> 1);
-    float g = fma(weight.x, lattice[i + 1] - lattice[i], lattice[i]);
+    float g = blended(lattice[i], lattice[i + 1], weight.x);
     if (weight.y > 0.0) {
       const int j = i + place.row_step;
-      g = fma(weight.y, fma(weight.x, lattice[j + 1] - lattice[j], lattice[j]) - g, g);
+      g = blended(g, blended(lattice[j], lattice[j + 1], weight.x), weight.y);
     }
     const float q = depth_of(max(g, kSmallest));
     const float rows = along * (view.orthographic != 0 ? 1.0 : q);
-    add_point(part.slice, point_in(r, part, q, rows), g > 0.0, h);
+    add_point(part.slice, part_x(part, rows), part_y(part, q, rows), g > 0.0, false, 1.0, h);
   }
 }
 
@@ -51,8 +51,8 @@ void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
     const float q = inverse * sum.x;
     const float rows =
         inverse * sum.y * rows_per_outward + place.axis * (view.orthographic != 0 ? 1.0 : q);
-    add_part(part.slice, point_in(r, part, q, rows), sum.z > 0.0,
-             sum.z * uintBitsToFloat(interval.w), h);
+    add_point(part.slice, part_x(part, rows), part_y(part, q, rows), sum.z > 0.0, true,
+              sum.z * uintBitsToFloat(interval.w), h);
   }
 }
 
@@ -61,9 +61,9 @@ void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place
   Horizon h = start_horizon(part.slice, reads.tap_count > 0);
   add_taps(r, part, reads, place, h);
   if (kMode == kFarAlone) {
-    h.sum = h.sum_solid = 0.0;
-    h.sum_directions = vec2(0.0);
+    h.sum = h.sum_x = h.sum_y = h.sum_solid = 0.0;
   }
   if (kMode != kNearAlone) add_intervals(r, part, reads, d, place, h);
-  add_slice(part, h.sum, h.sum_directions, h.sum_solid, totals);
+  add_slice(part, middle_of(float(d.sign_v), reads.slopes), h.sum, vec2(h.sum_x, h.sum_y),
+            h.sum_solid, totals);
 }

@@ -5,14 +5,19 @@
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
+#include "math/slice_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
+#include "screen/far_field/scan_leaf.h"
+#include "screen/far_field/slices_leaf.h"
 #include "gpu/view.glsl"
 
 #include "screen/far_field/far_field.glsl"
 
 float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
 
-#include "math/falloff.glsl"
-#include "math/slab.glsl"
+#include "gpu/rho.glsl"
+#include "math/horizon_leaf.h"
 #include "screen/far_field/far_field_slices.glsl"
 
 const int kLinePhases = kPhases / kLineStep;
@@ -76,7 +81,7 @@ void main() {
               -float(d.sign_v) * (float(at.y) - plane_center().y));
     for (int segment = 0; segment < kSegments; ++segment) {
       const Reads reads = reads_at(d.headers + 2 * (alike + segment));
-      evaluate_slice(r, make_part(r, float(d.sign_v), reads.slopes), reads, d, place, totals);
+      evaluate_slice(r, part_of(r, float(d.sign_v), reads.slopes), reads, d, place, totals);
     }
   }
   store_totals(pixel, visible.x * visible.y, totals);

@@ -3,6 +3,10 @@
 // receivers, tile by tile through shared memory so that reads and writes are both in rows.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
 #include "screen/far_field/far_field_fill_io.h"
 #include "gpu/view.glsl"
 
@@ -11,16 +15,13 @@
 shared vec2 texels[kTile][kTile + 1];
 shared vec4 tile[kTile][kTile + 1];
 
-const float kFarBack = 1e12;  // matter without end, finite so that arithmetic is
-
-// Where a texel's matter ends; 0 on the background. Finite thickness is along the view ray.
+// Where a texel's matter ends; 0 on the background.
 float back_of(ivec2 p, float d) {
   if (kOccluder == kSolid || !(d < kInf)) return 0.0;
   if (kOccluder == kWithBack) return min(max(given_backs[p.y * view.width + p.x], d), kFarBack);
   const vec2 a = (vec2(p) - (vec2(view.center_u, view.center_v) - 0.5)) *
                  vec2(view.scale_x, view.scale_y);
-  const float ray = view.orthographic != 0 ? 1.0 : sqrt(1.0 + dot(a, a));
-  return min(d + view.thickness / ray, kFarBack);
+  return back_of_thickness(d, view.thickness, a.x, a.y, view.orthographic != 0);
 }
 
 // What the lattices hold of a pixel; nothing outside the image.

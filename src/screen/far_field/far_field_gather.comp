@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
+#include "math/cone_leaf.h"
 #include "screen/far_field/far_field_gather_io.h"
 #include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"

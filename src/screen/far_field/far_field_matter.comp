@@ -4,21 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "screen/far_field/far_field_matter_io.h"
 #include "screen/far_field/far_field_evaluate.glsl"
-#include "math/matter.glsl"
+#include "math/sectors_leaf.h"
+#include "math/matter_leaf.h"
 
 // A point outwards, `rows` being times depth unless view rays are parallel.
 void add_piece(Receiver r, Part part, float depth, float back, float rows, float dither,
                inout Sectors m) {
-  const vec2 p = point_in(r, part, depth, rows);
-  // The matter's end lies on the same view ray.
-  const float scale = back / depth, camera = part.slice.camera;
-  const vec2 end = view.orthographic != 0 ? vec2(p.x, p.y - (back - depth))
-                                          : vec2(p.x * scale, (p.y - camera) * scale + camera);
-  add_matter(part.slice, p, end, depth, back, join_slack() * depth, dither, m);
+  const float x = part_x(part, rows), y = part_y(part, depth, rows);
+  const MatterEnd end = matter_end(part, x, y, depth, back, view.orthographic != 0);
+  add_matter(part.slice, x, y, end.x, end.y, depth, back, join_slack() * depth, dither, true, m);
 }
 
-// A direct sample: blended between four texels of one surface, otherwise the nearest of them, which
-// stands at its own row only.
 void add_taps(Receiver r, Part part, Reads reads, Place place, inout Sectors m) {
   for (int k = 0; k < reads.tap_count; ++k) {
     const uvec4 tap = quads[reads.taps + k];
@@ -27,24 +23,17 @@ void add_taps(Receiver r, Part part, Reads reads, Place place, inout Sectors m) 
     const bool centred = (tap.w & 1u) != 0u;
     const int i = place.texel + (int(tap.w) >> 1), j = w.y > 0.0 ? i + place.row_step : i;
     const float a = lattice[i], b = lattice[i + 1], c = lattice[j], e = lattice[j + 1];
-    const float least = min(min(a, b), min(c, e)), most = max(max(a, b), max(c, e));
     const float first_back = min(min(backs[i], backs[i + 1]), min(backs[j], backs[j + 1]));
-    const float far = depth_of(max(least, kSmallest)), near = depth_of(max(most, kSmallest));
-    const bool smooth_here = least > 0.0 && far - first_back <= join_slack() * near;
-    if (!smooth_here && !centred) {
-      m.joined = false;
-      continue;
-    }
     const int nearest = (w.y >= 0.5 ? j : i) + (w.x >= 0.5 ? 1 : 0);
-    const float top = fma(w.x, b - a, a), bottom = fma(w.x, e - c, c);
-    const float g = smooth_here ? fma(w.y, bottom - top, top) : lattice[nearest];
-    if (!(g > 0.0)) {
+    const MatterTap found =
+        matter_tap(a, b, c, e, w.x, w.y, lattice[nearest], backs[nearest], first_back,
+                   join_slack(), ortho_offset[0], view.orthographic != 0);
+    if (!(found.surface && (found.smooth_here || centred))) {
       m.joined = false;
       continue;
     }
-    const float depth = depth_of(g);
-    add_piece(r, part, depth, max(backs[nearest], depth),
-              along * (view.orthographic != 0 ? 1.0 : depth), reads.dither, m);
+    add_piece(r, part, found.depth, found.back,
+              along * (view.orthographic != 0 ? 1.0 : found.depth), reads.dither, m);
   }
 }
 
@@ -59,7 +48,7 @@ void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
       m.joined = false;
       continue;
     }
-    const float rows = view.slope / plane_scale().y * (piece.y + piece.x) +
+    const float rows = outward_of(view.slope / plane_scale().y, piece.x, piece.y) +
                        place.axis * (view.orthographic != 0 ? 1.0 : piece.x);
     add_piece(r, part, piece.x, piece.z, rows, reads.dither, m);
   }
@@ -71,9 +60,9 @@ void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place
   Sectors m = start_sectors(part.slice, reads.tap_count > 0, r.depth, back);
   add_taps(r, part, reads, place, m);
   if (kMode == kFarAlone) {
-    m.sum = m.sum_solid = 0.0;
-    m.sum_directions = vec2(0.0);
+    m.sum = m.sum_x = m.sum_y = m.sum_solid = 0.0;
   }
   if (kMode != kNearAlone) add_intervals(r, part, reads, d, place, m);
-  add_slice(part, m.sum, m.sum_directions, m.sum_solid, totals);
+  add_slice(part, middle_of(float(d.sign_v), reads.slopes), m.sum, vec2(m.sum_x, m.sum_y),
+            m.sum_solid, totals);
 }

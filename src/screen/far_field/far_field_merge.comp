@@ -2,11 +2,15 @@
 // makes: in pairs, for what is joined depends on the order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
+#include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/far_field_merge_io.h"
 #include "gpu/view.glsl"
 
 const bool kFinite = true;
-float join_slack() { return 8.0 * max(view.scale_x, view.scale_y); }
 #include "screen/far_field/far_field_pieces.glsl"
 
 void main() {

@@ -4,6 +4,11 @@
 // shared memory.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
+#include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/far_field_scan_io.h"
 #include "gpu/view.glsl"
 
@@ -32,68 +37,42 @@ bool crosses(Direction d, int line, int r, out Crossing at) {
 }
 
 float slanted_at(Crossing at, float depth) {
-  return view.slope * at.outward * (view.orthographic != 0 ? 1.0 : depth) - depth;
+  return slanted_height(view.slope, at.outward, depth, view.orthographic != 0);
 }
 
-// Beside the background the nearer texel decides: a skirt that falls to infinity within one cell
-// would spoil the averages.
-float between(float a, float b, float blend) {
-  return min(a, b) > 0.0 ? fma(blend, b - a, a) : blend < 0.5 ? a : b;
-}
-
-vec3 scan_strip(Direction d, int line, int first, int end) {
-  vec3 found = no_piece();
+Piece scan_strip(Direction d, int line, int first, int end) {
+  Piece found = no_piece();
   for (int r = first; r < end; ++r) {
     Crossing at;
     if (!crosses(d, line, r, at)) continue;
-    const float g = between(lattice[at.texel], lattice[at.texel + 1], at.blend);
+    const float a = lattice[at.texel], b = lattice[at.texel + 1];
+    const float g = between_texels(a, b, at.blend < 0.5 ? a : b, at.blend);
     if (!(g > 0.0)) continue;
     const float depth = depth_of(g);
-    found = vec3(min(found.x, depth), max(found.y, slanted_at(at, depth)), 0.0);
+    found = add_row(found, true, depth, slanted_at(at, depth));
   }
   return found;
 }
 
-// Depth of a row's matter and where it ends; none: infinity and 0. Between texels whose matter does
-// not touch, the nearer one decides.
-vec2 matter_at(Crossing at) {
-  const float a = lattice[at.texel], b = lattice[at.texel + 1];
-  const float back_a = backs[at.texel], back_b = backs[at.texel + 1];
-  const float da = depth_of(max(a, kSmallest)), db = depth_of(max(b, kSmallest));
-  const bool both = min(a, b) > 0.0 &&
-                    max(da, db) - min(back_a, back_b) <= join_slack() * min(da, db);
-  const bool first = at.blend < 0.5;
-  const float g = both ? fma(at.blend, b - a, a) : first ? a : b;
-  const float depth = depth_of(max(g, kSmallest));
-  return g > 0.0 ? vec2(depth, max(first ? back_a : back_b, depth)) : vec2(kInf, 0.0);
-}
-
-vec3 nearer(vec3 a, vec3 b) { return a.x < b.x ? a : b; }
-
-vec3 scan_matter(Direction d, int line, int first, int end) {
-  vec3 best = no_piece(), piece = no_piece();
-  vec2 before = vec2(kInf, 0.0);
+Piece scan_matter(Direction d, int line, int first, int end) {
+  MatterScan m = start_matter_scan();
   for (int r = first; r < end; ++r) {
-    Crossing at;
-    vec2 matter = vec2(kInf, 0.0);
-    if (crosses(d, line, r, at)) matter = matter_at(at);
-    if (matter.x < kInf) {
-      const float height = slanted_at(at, matter.x);
-      const bool joined = before.x < kInf && max(matter.x, before.x) - min(matter.y, before.y) <=
-                                                 join_slack() * min(matter.x, before.x);
-      if (joined) {
-        piece = vec3(min(piece.x, matter.x), max(piece.y, height), max(piece.z, matter.y));
-      } else {
-        best = nearer(piece, best);
-        piece = vec3(matter.x, height, matter.y);
-      }
-    } else {
-      best = nearer(piece, best);
-      piece = no_piece();
+    Crossing at = Crossing(0, 0.0, 0.0);
+    bool surface = false;
+    float depth = 1.0, back = 1.0;
+    if (crosses(d, line, r, at)) {
+      const float a = lattice[at.texel], b = lattice[at.texel + 1];
+      const float back_a = backs[at.texel], back_b = backs[at.texel + 1];
+      const bool nearer = at.blend < 0.5;
+      const float g = between_matter(a, b, nearer ? a : b, at.blend, depth_of(max(a, kSmallest)),
+                                     depth_of(max(b, kSmallest)), back_a, back_b, join_slack());
+      surface = g > 0.0;
+      depth = depth_of(max(g, kSmallest));
+      back = max(nearer ? back_a : back_b, depth);
     }
-    before = matter;
+    add_matter_row(surface, depth, back, slanted_at(at, depth), join_slack(), m);
   }
-  return nearer(piece, best);
+  return nearer_piece(m.piece, m.best);
 }
 
 void store(int at, vec3 found) {
@@ -108,14 +87,14 @@ void main() {
   const ivec3 at = ivec3(gl_GlobalInvocationID);
   const int y = int(gl_LocalInvocationID.y), x = int(gl_LocalInvocationID.x);
   const Direction d = direction_at(at.z);
-  vec3 found = no_piece();
+  vec3 found = stored_piece(no_piece());
   if (at.x < d.lines && at.y < int(d.strips.x)) {
     const int start = at.y * kInterval - d.strip_offset;
     const int first = max(start, 0), end = min(start + kInterval, plane_size().y);
     if (kFinite) {
-      found = scan_matter(d, at.x, first, end);
+      found = stored_piece(scan_matter(d, at.x, first, end));
     } else {
-      found = scan_strip(d, at.x, first, end);
+      found = stored_piece(scan_strip(d, at.x, first, end));
     }
     store((int(d.raw_rows.x) + at.y) * view.line_stride + at.x, found);
   }

@@ -6,6 +6,11 @@
 // the lines from the restart before line i - 1 up to and with that line.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
+#include "view/taps_leaf.h"
+#include "screen/far_field/lattice_leaf.h"
+#include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/far_field_sum_io.h"
 #include "gpu/view.glsl"
 
@@ -18,8 +23,8 @@ vec3 line_at(int first, int count, int line) {
     const vec2 strip = raw[(first + i) * view.line_stride + line];
     found = vec2(min(found.x, strip.x), max(found.y, strip.y));
   }
-  // The two receiver lines meet where z = m0 and slope x = m1 - m0.
-  return found.x < kInf ? vec3(found.x, view.slope * (found.y + found.x), 1.0) : vec3(0.0);
+  return found.x < kInf ? vec3(found.x, outward_of(view.slope, found.x, found.y), 1.0)
+                        : vec3(0.0);
 }
 
 // Lines of a phase lie beside each other.

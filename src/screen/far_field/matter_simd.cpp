@@ -7,23 +7,18 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/matter-inl.h"
 #include "screen/far_field/receivers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura::far_field {
 namespace HWY_NAMESPACE {
 
-// A direct sample: blended between four texels of one surface, otherwise the nearest of them. That
-// one stands at its own row only: taken at several places it would be a step of the height of a
-// texel in every surface that is not blended, which rods and edges would cast on themselves.
 struct Sample {
   V depth, back;
   M valid;
 };
 HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead& tap, int i) {
   const D d;
-  const V tiny = hn::Set(d, 1e-30f);
   const float* texels = job.texels + i;
   const V a = hn::LoadU(d, texels + tap.upper), b = hn::LoadU(d, texels + tap.upper_next);
   const V c = hn::LoadU(d, texels + tap.lower), e = hn::LoadU(d, texels + tap.lower_next);
@@ -34,18 +29,11 @@ HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead&
               hn::Min(hn::LoadU(d, backs + tap.lower), hn::LoadU(d, backs + tap.lower_next)));
   const bool right = tap.wu >= 0.5f, below = tap.wv >= 0.5f;
   const V nearest = below ? (right ? e : c) : (right ? b : a);
-  const V wu = hn::Set(d, tap.wu);
-  const V top = hn::MulAdd(wu, hn::Sub(b, a), a), bottom = hn::MulAdd(wu, hn::Sub(e, c), c);
-  const V blended = hn::MulAdd(hn::Set(d, tap.wv), hn::Sub(bottom, top), top);
-  const V least = hn::Min(hn::Min(a, b), hn::Min(c, e));
-  const V most = hn::Max(hn::Max(a, b), hn::Max(c, e));
-  const V far = f.DepthOf(hn::Max(least, tiny)), near = f.DepthOf(hn::Max(most, tiny));
-  const M touch = hn::Le(hn::Sub(far, first_back), hn::Mul(hn::Set(d, job.slack), near));
-  const M smooth = hn::And(hn::Gt(least, hn::Zero(d)), touch);
-  const V g = hn::IfThenElse(smooth, blended, nearest);
-  const V depth = f.DepthOf(hn::Max(g, tiny));
-  const M surface = hn::Gt(g, hn::Zero(d));
-  return {depth, hn::Max(back, depth), tap.centred ? surface : hn::And(surface, smooth)};
+  const leaf::MatterTap found = leaf::matter_tap(
+      a, b, c, e, hn::Set(d, tap.wu), hn::Set(d, tap.wv), nearest, back, first_back,
+      hn::Set(d, job.slack), hn::Set(d, f.plane.ortho_offset), f.plane.orthographic);
+  return {found.depth, found.back,
+          tap.centred ? found.surface : hn::And(found.surface, found.smooth_here)};
 }
 
 template <FalloffKind kKind, SliceSums kSums>
@@ -54,23 +42,21 @@ void AddMatterSlices(const SliceRow& job) {
   const Plane& p = *job.plane;
   const RowFrame f(job);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Inf(d);
-  const V slack = hn::Set(d, job.slack);
+  const V slack = hn::Set(d, job.slack), dither = hn::Set(d, job.dither);
+  leaf::SliceIntegral<kKind, true, kSums> slices(*job.rho);
   const int lanes = static_cast<int>(hn::Lanes(d));
   const float* own_back = p.back.at(job.row + p.top, job.column + p.left);
   for (int i = 0; i < job.count; i += lanes) {
     const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
-    om::Sectors<D> m = om::StartSectors(d, r.slice, job.tap_count > 0, r.depth,
-                                        hn::Max(hn::LoadU(d, own_back + i), r.depth));
+    const leaf::Part& part = r.part;
+    leaf::Sectors m = leaf::start_sectors(part.slice, job.tap_count > 0, part.depth,
+                                          hn::Max(hn::LoadU(d, own_back + i), part.depth));
     auto add = [&](V depth, V back, V rows, M valid) HWY_ATTR {
-      const V px = r.X(rows), py = r.Y(depth, rows);
-      // The matter's end lies on the same view ray.
-      const V scale = hn::Mul(back, om::FastReciprocal(d, depth));
-      const V bx = p.orthographic ? px : hn::Mul(px, scale);
-      const V by = p.orthographic ? hn::Sub(py, hn::Sub(back, depth))
-                                  : hn::MulAdd(hn::Sub(py, r.camera), scale, r.camera);
-      om::AddMatter<kKind, kSums>(d, *job.rho, r.slice, px, py, bx, by, depth, back,
-                                  hn::Mul(slack, depth), job.dither, hn::And(valid, r.surface), m);
+      const V x = leaf::part_x(part, rows), y = leaf::part_y(part, depth, rows);
+      const leaf::MatterEnd end = leaf::matter_end(part, x, y, depth, back, p.orthographic);
+      slices.add_matter(part.slice, x, y, end.x, end.y, depth, back, hn::Mul(slack, depth), dither,
+                        hn::And(valid, r.surface), m);
     };
     for (int k = 0; k < job.tap_count; ++k) {
       const TapRead& tap = job.taps[k];
@@ -86,7 +72,7 @@ void AddMatterSlices(const SliceRow& job) {
       const V depth = hn::IfThenElse(valid, nearest, one);
       const V slanted = hn::IfThenElse(valid, hn::LoadU(d, read.line.slanted + line), one);
       const V back = hn::IfThenElse(valid, hn::LoadU(d, read.line.deepest + line), one);
-      const V outward = hn::Mul(hn::Set(d, job.slope / p.scale_v), hn::Add(slanted, depth));
+      const V outward = leaf::outward_of(hn::Set(d, job.slope / p.scale_v), depth, slanted);
       const V rows = hn::MulAdd(hn::Set(d, f.axis), p.orthographic ? one : depth, outward);
       add(depth, back, rows, valid);
     }

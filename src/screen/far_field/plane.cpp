@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura::far_field {
+#include "math/leaf_scalar.h"
+#include "screen/far_field/scan.h"
+
+namespace obscura {
+namespace leaf_scalar {
+#include "view/taps_leaf.h"
+// After taps_leaf.h.
+#include "screen/far_field/lattice_leaf.h"
+}  // namespace leaf_scalar
+
+namespace far_field {
 namespace {
 
-constexpr float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
-constexpr int kTile = 32;          // rows per task; a transposed tile's lines stay in the cache
+constexpr int kTile = 32;  // rows per task; a transposed tile's lines stay in the cache
 
 // image(u, v) = value(u, v), tile by tile: where value reads a transposed image, its lines stay in
 // the cache.
@@ -28,6 +37,10 @@ void fill(int width, int height, Executor& executor, PhaseImage* image, const Va
 }
 
 }  // namespace
+
+float join_slack(const Plane& plane) {
+  return leaf_scalar::slack_of_pixels(plane.scale_u, plane.scale_v);
+}
 
 void SumImages::clear(int c, int width, int height, int phases, Executor& executor) {
   channel[c].resize(width, height, 0, phases);
@@ -62,9 +75,7 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
     fill(p.width, p.height, executor, image, value);
   };
   lattice(&p.lattice, [&](int x, int y) {
-    const float d = texel(g.depth, x, y);
-    if (!std::isfinite(d)) return 0.0f;
-    return p.orthographic ? p.ortho_offset - d : 1 / d;
+    return leaf_scalar::lattice_of_depth(texel(g.depth, x, y), p.ortho_offset, p.orthographic);
   });
   p.finite = occluder.kind != OccluderKind::kSolid;
   if (p.finite) {
@@ -72,10 +83,9 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
     lattice(&p.back, [&](int x, int y) {
       const float d = texel(g.depth, x, y);
       if (!std::isfinite(d)) return 0.0f;
-      if (given) return std::min(texel(g.back_depth, x, y), kFarBack);
+      if (given) return std::min(texel(g.back_depth, x, y), leaf_scalar::kFarBack);
       const float a = (x - p.center_u) * p.scale_u, b = (y - p.center_v) * p.scale_v;
-      const float ray = p.orthographic ? 1.0f : std::sqrt(1 + a * a + b * b);
-      return std::min(d + occluder.thickness / ray, kFarBack);
+      return leaf_scalar::back_of_thickness(d, occluder.thickness, a, b, p.orthographic);
     });
   }
 }
@@ -94,9 +104,8 @@ void fill_receivers(const ReceiverSource& source, const Plane& p, bool transpose
     fill(p.visible_width, p.visible_height, executor, image, value);
   };
   write(&receivers->lattice, [&](int u, int v) {
-    const float d = texel(*source.depth, u, v);
-    if (!std::isfinite(d)) return 0.0f;
-    return p.orthographic ? p.ortho_offset - d : 1 / d;
+    return leaf_scalar::lattice_of_depth(texel(*source.depth, u, v), p.ortho_offset,
+                                         p.orthographic);
   });
   // The image's v and this frame's third axis run against eye space's y and z.
   constexpr float kSign[] = {1, -1, -1};
@@ -107,4 +116,5 @@ void fill_receivers(const ReceiverSource& source, const Plane& p, bool transpose
   }
 }
 
-}  // namespace obscura::far_field
+}  // namespace far_field
+}  // namespace obscura

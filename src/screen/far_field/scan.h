@@ -52,12 +52,8 @@ class ScanBuffer {
   AlignedImage<float> count_, nearest_, slanted_, deepest_;
 };
 
-// Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
-// surface seen at a grazing angle.
-inline constexpr float kJoinedPixels = 8;
-inline float join_slack(const Plane& plane) {
-  return kJoinedPixels * (plane.scale_u > plane.scale_v ? plane.scale_u : plane.scale_v);
-}
+// Relative gap in depth that joins neighbours' matter (screen/far_field/lattice_leaf.h).
+float join_slack(const Plane& plane);
 
 struct ScanSettings {
   int interval;        // B0, texels

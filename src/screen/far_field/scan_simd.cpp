@@ -8,99 +8,78 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::far_field {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "view/taps_leaf.h"
+// After taps_leaf.h.
+#include "screen/far_field/lattice_leaf.h"
+// After lattice_leaf.h.
+#include "screen/far_field/scan_leaf.h"
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+
+namespace far_field::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
+using leaf::Piece;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
+HWY_INLINE void StorePiece(const Piece& p, const RawStrip& out, int j) {
+  const D d;
+  hn::StoreU(p.nearest, d, out.nearest + j);
+  hn::StoreU(p.slanted, d, out.slanted + j);
+}
+
 void ScanStrip(const StripJob& job) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), slope = hn::Set(d, job.slope);
-  const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
+  const V zero = hn::Zero(d), slope = hn::Set(d, job.slope),
+          ortho_offset = hn::Set(d, job.ortho_offset);
   for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
-    V nearest = inf, slanted = hn::Neg(inf);
+    Piece found = leaf::no_piece();
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
       const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
-      const V blend = hn::Set(d, row.blend);
-      // Beside the background the nearer texel decides: a skirt that falls to infinity within one
-      // cell would spoil the averages.
-      const V single = row.blend < 0.5f ? a : b;
-      const auto both = hn::Gt(hn::Min(a, b), zero);
-      const V g = hn::IfThenElse(both, hn::MulAdd(blend, hn::Sub(b, a), a), single);
-      const auto surface = hn::Gt(g, zero);
-      const V depth = job.orthographic ? hn::Sub(hn::Set(d, job.ortho_offset), g) : hn::Div(one, g);
-      const V outward = hn::Mul(hn::Set(d, row.outward), job.orthographic ? one : depth);
-      const V height = hn::MulSub(slope, outward, depth);
-      nearest = hn::Min(nearest, hn::IfThenElse(surface, depth, inf));
-      slanted = hn::Max(slanted, hn::IfThenElse(surface, height, hn::Neg(inf)));
+      const V g = leaf::between_texels(a, b, row.blend < 0.5f ? a : b, hn::Set(d, row.blend));
+      const V depth = leaf::depth_of_lattice(g, ortho_offset, job.orthographic);
+      const V height =
+          leaf::slanted_height(slope, hn::Set(d, row.outward), depth, job.orthographic);
+      found = leaf::add_row(found, hn::Gt(g, zero), depth, height);
     }
-    hn::StoreU(nearest, d, job.out.nearest + j);
-    hn::StoreU(slanted, d, job.out.slanted + j);
+    StorePiece(found, job.out, j);
   }
-}
-
-// One connected piece of matter of a line.
-struct Piece {
-  V nearest, slanted, deepest;
-};
-HWY_INLINE void KeepNearer(const Piece& piece, Piece* best) {
-  const auto nearer = hn::Lt(piece.nearest, best->nearest);
-  best->nearest = hn::IfThenElse(nearer, piece.nearest, best->nearest);
-  best->slanted = hn::IfThenElse(nearer, piece.slanted, best->slanted);
-  best->deepest = hn::IfThenElse(nearer, piece.deepest, best->deepest);
 }
 
 void ScanMatter(const StripJob& job) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), slope = hn::Set(d, job.slope);
-  const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
-  const V slack = hn::Set(d, job.slack);
+  const V zero = hn::Zero(d), slope = hn::Set(d, job.slope),
+          ortho_offset = hn::Set(d, job.ortho_offset);
+  const V slack = hn::Set(d, job.slack), tiny = hn::Set(d, leaf::kSmallest);
   for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
-    Piece best{inf, hn::Neg(inf), zero}, piece = best;
-    V last = inf, last_back = zero;
+    leaf::MatterScan m = leaf::start_matter_scan();
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
       auto depth_of = [&](V g) HWY_ATTR {
-        return job.orthographic ? hn::Sub(hn::Set(d, job.ortho_offset), g) : hn::Div(one, g);
+        return leaf::depth_of_lattice(hn::Max(g, tiny), ortho_offset, job.orthographic);
       };
       const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
       const V back_a = hn::LoadU(d, row.back + j), back_b = hn::LoadU(d, row.next_back + j);
-      const V tiny = hn::Set(d, 1e-30f);
-      const V da = depth_of(hn::Max(a, tiny)), db = depth_of(hn::Max(b, tiny));
-      // Between texels whose matter does not touch, the nearer one decides.
-      const auto both = hn::And(hn::Gt(hn::Min(a, b), zero),
-                                hn::Le(hn::Sub(hn::Max(da, db), hn::Min(back_a, back_b)),
-                                       hn::Mul(slack, hn::Min(da, db))));
       const bool first = row.blend < 0.5f;
-      const V blended = hn::MulAdd(hn::Set(d, row.blend), hn::Sub(b, a), a);
-      const V g = hn::IfThenElse(both, blended, first ? a : b);
-      const auto surface = hn::Gt(g, zero);
-      const V depth = depth_of(hn::Max(g, tiny));
-      const V back = hn::Max(first ? back_a : back_b, depth);
-      const V outward = hn::Mul(hn::Set(d, row.outward), job.orthographic ? one : depth);
-      const V height = hn::MulSub(slope, outward, depth);
-      const auto joined =
-          hn::And(surface, hn::Le(hn::Sub(hn::Max(depth, last), hn::Min(back, last_back)),
-                                  hn::Mul(slack, hn::Min(depth, last))));
-      // A piece that goes on is not compared yet: what is still to come belongs to it.
-      Piece ended = piece;
-      ended.nearest = hn::IfThenElse(joined, inf, piece.nearest);
-      KeepNearer(ended, &best);
-      piece.nearest = hn::IfThenElse(
-          surface, hn::IfThenElse(joined, hn::Min(piece.nearest, depth), depth), inf);
-      piece.slanted = hn::IfThenElse(joined, hn::Max(piece.slanted, height), height);
-      piece.deepest = hn::IfThenElse(joined, hn::Max(piece.deepest, back), back);
-      last = hn::IfThenElse(surface, depth, inf);
-      last_back = hn::IfThenElse(surface, back, zero);
+      const V g = leaf::between_matter(a, b, first ? a : b, hn::Set(d, row.blend), depth_of(a),
+                                       depth_of(b), back_a, back_b, slack);
+      const V depth = depth_of(g);
+      const V height =
+          leaf::slanted_height(slope, hn::Set(d, row.outward), depth, job.orthographic);
+      leaf::add_matter_row(hn::Gt(g, zero), depth, hn::Max(first ? back_a : back_b, depth), height,
+                           slack, m);
     }
-    KeepNearer(piece, &best);
-    hn::StoreU(best.nearest, d, job.out.nearest + j);
-    hn::StoreU(best.slanted, d, job.out.slanted + j);
+    const Piece best = leaf::nearer_piece(m.piece, m.best);
+    StorePiece(best, job.out, j);
     hn::StoreU(best.deepest, d, job.out.deepest + j);
   }
 }
@@ -113,37 +92,34 @@ void MergeMatter(int lines, float slack, const RawStrip& a, const RawStrip& b,
       return Piece{hn::LoadU(d, s.nearest + j), hn::LoadU(d, s.slanted + j),
                    hn::LoadU(d, s.deepest + j)};
     };
-    const Piece p = load(a), q = load(b);
-    Piece nearer = p;
-    KeepNearer(q, &nearer);
-    const V inf = hn::Set(d, std::numeric_limits<float>::infinity());
-    const V farther = hn::Max(p.nearest, q.nearest);
-    const auto joined =
-        hn::And(hn::Lt(farther, inf), hn::Le(hn::Sub(farther, hn::Min(p.deepest, q.deepest)),
-                                             hn::Mul(hn::Set(d, slack), nearer.nearest)));
-    hn::StoreU(nearer.nearest, d, out.nearest + j);
-    hn::StoreU(hn::IfThenElse(joined, hn::Max(p.slanted, q.slanted), nearer.slanted), d,
-               out.slanted + j);
-    hn::StoreU(hn::IfThenElse(joined, hn::Max(p.deepest, q.deepest), nearer.deepest), d,
-               out.deepest + j);
+    const Piece merged = leaf::merged_matter(load(a), load(b), hn::Set(d, slack));
+    StorePiece(merged, out, j);
+    hn::StoreU(merged.deepest, d, out.deepest + j);
   }
 }
 
 void MergeStrips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
   const D d;
   for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    hn::StoreU(hn::Min(hn::LoadU(d, a.nearest + j), hn::LoadU(d, b.nearest + j)), d,
-               out.nearest + j);
-    hn::StoreU(hn::Max(hn::LoadU(d, a.slanted + j), hn::LoadU(d, b.slanted + j)), d,
-               out.slanted + j);
+    const Piece p{hn::LoadU(d, a.nearest + j), hn::LoadU(d, a.slanted + j), hn::Zero(d)};
+    const Piece q{hn::LoadU(d, b.nearest + j), hn::LoadU(d, b.slanted + j), hn::Zero(d)};
+    StorePiece(leaf::merged_strips(p, q), out, j);
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::far_field
+}  // namespace far_field::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "math/leaf_scalar.h"
+
+namespace obscura::leaf_scalar {
+#include "view/taps_leaf.h"
+// After taps_leaf.h.
+#include "screen/far_field/lattice_leaf.h"
+}  // namespace obscura::leaf_scalar
+
 namespace obscura::far_field {
 
 HWY_EXPORT(ScanStrip);
@@ -190,7 +166,8 @@ void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
       const bool surface = strip.nearest[at] < std::numeric_limits<float>::infinity();
       depth += surface ? strip.nearest[at] : 0.0f;
       // The two receiver lines meet where z = m0 and slope x = m1 - m0.
-      outward += surface ? slope * (strip.slanted[at] + strip.nearest[at]) : 0.0f;
+      outward +=
+          surface ? leaf_scalar::outward_of(slope, strip.nearest[at], strip.slanted[at]) : 0.0f;
       count += surface ? 1.0f : 0.0f;
     }
   }

@@ -30,28 +30,29 @@ void AddSlices(const SliceRow& job) {
   const D d;
   const Plane& p = *job.plane;
   const RowFrame f(job);
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), tiny = hn::Set(d, 1e-30f);
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), tiny = hn::Set(d, leaf::kSmallest);
   const int lanes = static_cast<int>(hn::Lanes(d));
+  leaf::SliceIntegral<kKind, kChord, kSums> slices(*job.rho);
   for (int i = 0; i < job.count; i += lanes) {
     const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
-    om::Horizon<D> h = om::StartHorizon<kSums>(d, r.slice, job.tap_count > 0);
+    const leaf::Part& part = r.part;
+    leaf::Horizon h = slices.start_horizon(part.slice, job.tap_count > 0);
     const float* texels = job.texels + i;
     for (int k = 0; k < job.tap_count; ++k) {
       const TapRead& tap = job.taps[k];
       const V wu = hn::Set(d, tap.wu);
       const V c0 = hn::LoadU(d, texels + tap.upper), c1 = hn::LoadU(d, texels + tap.upper_next);
-      V g = hn::MulAdd(wu, hn::Sub(c1, c0), c0);
+      V g = leaf::blended(c0, c1, wu);
       if (tap.wv > 0) {
         const V e0 = hn::LoadU(d, texels + tap.lower), e1 = hn::LoadU(d, texels + tap.lower_next);
-        const V e = hn::MulAdd(wu, hn::Sub(e1, e0), e0);
-        g = hn::MulAdd(hn::Set(d, tap.wv), hn::Sub(e, g), g);
+        g = leaf::blended(g, leaf::blended(e0, e1, wu), hn::Set(d, tap.wv));
       }
       const M valid = hn::And(r.surface, hn::Gt(g, zero));
       const V q = f.DepthOf(hn::Max(g, tiny));
       const V rows = hn::Mul(hn::Set(d, tap.along), p.orthographic ? one : q);
-      om::AddPoint<kKind, kChord, false, kSums>(d, *job.rho, r.slice, r.X(rows), r.Y(q, rows),
-                                                valid, one, h);
+      slices.add_point(part.slice, leaf::part_x(part, rows), leaf::part_y(part, q, rows), valid,
+                       false, one, h);
     }
     if (job.far_alone) h.sum = h.sum_x = h.sum_y = h.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
@@ -68,8 +69,8 @@ void AddSlices(const SliceRow& job) {
       const V rows = hn::MulAdd(outward, hn::Set(d, 1 / p.scale_v),
                                 hn::Mul(hn::Set(d, f.axis), p.orthographic ? one : q));
       const V share = hn::Mul(count, hn::Set(d, read.inverse_lines));
-      om::AddPoint<kKind, kChord, true, kSums>(d, *job.rho, r.slice, r.X(rows), r.Y(q, rows), valid,
-                                               share, h);
+      slices.add_point(part.slice, leaf::part_x(part, rows), leaf::part_y(part, q, rows), valid,
+                       true, share, h);
     }
     AddToRow<kSums>(job, f, r, i, h);
   }

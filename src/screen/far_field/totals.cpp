@@ -5,9 +5,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/leaf_scalar.h"
 #include "screen/far_field/finish_kernel.h"
 
-namespace obscura::far_field {
+namespace obscura {
+namespace leaf_scalar {
+#include "screen/far_field/groups_leaf.h"
+}  // namespace leaf_scalar
+
+namespace far_field {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -132,7 +138,6 @@ void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& 
 }
 
 void average_groups(const view::Geometry& g, Executor& executor, Groups* groups) {
-  constexpr float kLeastCosine = 0.5f, kDepthRatio = 0.03f;  // Timonen 2013, section 10
   const int width = g.visible().width, height = g.visible().height;
   const int left = g.guard_band.left, top = g.guard_band.top;
   groups->depth.resize(width, height);
@@ -151,15 +156,13 @@ void average_groups(const view::Geometry& g, Executor& executor, Groups* groups)
           const int nx = x + dx, ny = y + dy;
           if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
           const float other = g.depth(nx + left, ny + top);
-          // The background is in no group: from it every surface would be within any share of its
-          // depth.
-          if (!(std::isfinite(depth) && std::abs(other - depth) <= kDepthRatio * depth)) continue;
+          if (!leaf_scalar::same_depth(depth, other)) continue;
           float m[3], dot = 0;
           for (int k = 0; k < 3; ++k) {
             m[k] = (*normal[k])(nx + left, ny + top);
             dot += m[k] * n[k];
           }
-          if (dot <= kLeastCosine && (dx != 0 || dy != 0)) continue;
+          if (dot <= leaf_scalar::kLeastCosine && (dx != 0 || dy != 0)) continue;
           accepted |= 1u << (3 * (dy + 1) + dx + 1);
           ++count;
           place += g.camera.orthographic ? other : 1 / other;
@@ -196,7 +199,7 @@ void gather(const Groups& groups, const Totals& far, const WantedSums& wanted, E
 
 void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& executor,
                       Totals* totals, Totals* spare) {
-  constexpr float kWeights[] = {1, 2, 3, 2, 1}, kThreshold = 0.07f * kPi, kDepthRatio = 0.03f;
+  constexpr int kReach = leaf_scalar::kBlurReach;
   const int width = groups.depth.width(), height = groups.depth.height();
   const std::vector<Channel> channels = wanted.channels();
   for (Channel c : channels) spare->channel[c].resize(width, height);
@@ -204,13 +207,11 @@ void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& 
     for (int x = 0; x < width; ++x) {
       const float own = totals->channel[kObscurance](x, y), depth = groups.depth(x, y);
       float sum[kChannelCount] = {}, weights = 0;
-      for (int dy = std::max(-2, -y); dy <= std::min(2, height - 1 - y); ++dy) {
-        for (int dx = std::max(-2, -x); dx <= std::min(2, width - 1 - x); ++dx) {
+      for (int dy = std::max(-kReach, -y); dy <= std::min(kReach, height - 1 - y); ++dy) {
+        for (int dx = std::max(-kReach, -x); dx <= std::min(kReach, width - 1 - x); ++dx) {
           const float other = totals->channel[kObscurance](x + dx, y + dy);
-          const float gap = std::abs(groups.depth(x + dx, y + dy) - depth);
-          const bool same = std::isfinite(depth) && gap <= kDepthRatio * depth;
-          if (!(same && std::abs(other - own) <= kThreshold)) continue;
-          const float weight = kWeights[dx + 2] * kWeights[dy + 2];
+          if (!leaf_scalar::blurs(own, other, depth, groups.depth(x + dx, y + dy))) continue;
+          const float weight = leaf_scalar::blur_weight(std::abs(dx), std::abs(dy));
           weights += weight;
           for (Channel c : channels) sum[c] += weight * totals->channel[c](x + dx, y + dy);
         }
@@ -240,4 +241,5 @@ void finish(const view::Geometry& g, const Totals& totals, ConeEstimate cone, Ex
   });
 }
 
-}  // namespace obscura::far_field
+}  // namespace far_field
+}  // namespace obscura

@@ -11,17 +11,7 @@ inline constexpr int kMaxSamples = 64;
 using interleaved::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
-// What differs from pixel to pixel of the tile.
-enum TileValue {
-  kTileCos,  // rotation of the pattern
-  kTileSin,
-  kTileShift,                            // share of a stratum to go down
-  kTileOffset,                           // share of a step to go on
-  kTileMean,                             // 3: mean w in the receiver's frame
-  kTileCosineMean = kTileMean + 3,       // 3: mean w, weights n.w
-  kTileCosineSum = kTileCosineMean + 3,  // sum of n.w
-  kTileValues
-};
+#include "screen/hemisphere/tile_leaf.h"
 
 struct Frame {
   const float* depth = nullptr;

@@ -8,16 +8,25 @@
 // After foreach_target.
 #include "core/gather-inl.h"
 #include "hwy/highway.h"
+#include "math/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "view/taps_leaf.h"
+// After taps_leaf.h.
+#include "screen/hemisphere/hemisphere_leaf.h"
+}  // namespace leaf
+
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using hemisphere::Frame;
 using hemisphere::Sums;
 using interleaved::kChannels;
+using Receiver = leaf::HemisphereReceiver;
+using Vector = leaf::EyeDirection;
 using D = hn::ScalableTag<float>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
@@ -26,61 +35,27 @@ using M = hn::Mask<D>;
 constexpr int kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-struct Vector {
-  V x, y, z;
-};
-HWY_INLINE V Dot(const Vector& a, const Vector& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
-// A receiver and the two tangents that complete its normal (Duff et al. 2017).
-struct Receiver {
-  V x, y, z;  // eye space; z is depth
-  Vector n, t, b;
-  V plane;  // n.p
-  V slack;  // heights above the tangent plane that are rounding
-};
-
 HWY_INLINE Receiver MakeReceiver(const Frame& f, int x, float ray_y, V z, const Vector& n) {
   const D d;
-  const V one = hn::Set(d, 1.0f);
-  Receiver r;
   const V u = hn::ConvertTo(d, hn::Iota(DI(), x));
   const V a = hn::Mul(hn::Add(u, hn::Set(d, 0.5f - f.center_u)), hn::Set(d, f.scale_x));
-  const V away = f.orthographic ? one : z;
-  r.x = hn::Mul(a, away);
-  r.y = hn::Mul(hn::Set(d, ray_y), away);
-  r.z = z;
-  r.n = n;
-  const V sign = hn::CopySign(one, n.z);
-  const V k = hn::Div(hn::Set(d, -1.0f), hn::Add(sign, n.z));
-  const V xy = hn::Mul(hn::Mul(n.x, n.y), k);
-  r.t = {hn::MulAdd(hn::Mul(sign, n.x), hn::Mul(n.x, k), one), hn::Mul(sign, xy),
-         hn::Neg(hn::Mul(sign, n.x))};
-  r.b = {xy, hn::MulAdd(hn::Mul(n.y, n.y), k, sign), hn::Neg(n.y)};
-  r.plane = Dot(n, {r.x, r.y, hn::Neg(z)});
-  r.slack = hn::Mul(z, hn::Set(d, 1e-5f));
-  return r;
+  return leaf::hemisphere_receiver(a, hn::Set(d, ray_y), z, n, f.orthographic);
 }
 
-// Whether the point at distance t along w lies behind what the depth image holds there. The point
-// is moved to the view ray of its texel, parallel to the tangent plane, so that a plane of any tilt
-// never occludes itself: with q the surface point on that ray, it is behind if n.(q - p) > t n.w.
+// Whether the point at distance t along w lies behind what the depth image holds there.
 HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine, V t, M valid) {
   const D d;
   const DI di;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-  const V z = hn::NegMulAdd(t, w.z, r.z);
-  const V x = hn::MulAdd(t, w.x, r.x), y = hn::MulAdd(t, w.y, r.y);
-  const V away = f.orthographic ? one : hn::Div(one, z);
-  const V u = hn::MulAdd(hn::Mul(x, away), hn::Set(d, 1 / f.scale_x), hn::Set(d, f.center_u));
-  const V v = hn::NegMulAdd(hn::Mul(y, away), hn::Set(d, 1 / f.scale_y), hn::Set(d, f.center_v));
-  const V uf = hn::Floor(u), vf = hn::Floor(v);
+  const V zero = hn::Zero(d), half = hn::Set(d, 0.5f);
+  const leaf::Seen seen =
+      leaf::image_of_point(r, w, t, hn::Set(d, 1 / f.scale_x), hn::Set(d, 1 / f.scale_y),
+                           hn::Set(d, f.center_u), hn::Set(d, f.center_v), f.orthographic);
+  const V uf = hn::Floor(seen.u), vf = hn::Floor(seen.v);
   // What lies behind the camera or outside the image is open.
   M inside = hn::And(hn::Ge(uf, zero), hn::Lt(uf, hn::Set(d, static_cast<float>(f.width))));
   inside = hn::And(inside,
                    hn::And(hn::Ge(vf, zero), hn::Lt(vf, hn::Set(d, static_cast<float>(f.height)))));
-  inside = hn::And(hn::And(inside, hn::Gt(z, zero)), valid);
+  inside = hn::And(hn::And(inside, hn::Gt(seen.z, zero)), valid);
   const VI ix = hn::ConvertTo(di, hn::IfThenElseZero(inside, uf));
   const VI iy =
       hn::Sub(hn::ConvertTo(di, hn::IfThenElseZero(inside, vf)), hn::Set(di, f.height / 2));
@@ -91,20 +66,8 @@ HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine
 
   const V a = hn::Mul(hn::Sub(hn::Add(uf, half), hn::Set(d, f.center_u)), hn::Set(d, f.scale_x));
   const V b = hn::Mul(hn::Sub(hn::Set(d, f.center_v - 0.5f), vf), hn::Set(d, f.scale_y));
-  const V across = hn::MulAdd(r.n.x, a, hn::Mul(r.n.y, b));
-  // n.q, and how the height above the plane grows with depth along the texel's ray.
-  const V slope = f.orthographic ? hn::Neg(r.n.z) : hn::Sub(across, r.n.z);
-  const V q = f.orthographic ? hn::NegMulAdd(r.n.z, depth, across) : hn::Mul(depth, slope);
-  const V height = hn::MulAdd(t, cosine, hn::Add(r.plane, r.slack));
-  // A ray that runs away from the plane bounds nothing: there depths decide.
-  const M bounded = hn::Lt(slope, zero);
-  M behind = hn::Or(hn::And(bounded, hn::Gt(q, height)), hn::AndNot(bounded, hn::Lt(depth, z)));
-  if (f.thickness > 0) {
-    // Thickness counts along the texel's ray.
-    const V length = f.orthographic ? one : hn::Sqrt(hn::MulAdd(a, a, hn::MulAdd(b, b, one)));
-    const V back = hn::Add(depth, hn::Div(hn::Set(d, f.thickness), length));
-    behind = hn::And(behind, hn::Lt(z, back));
-  }
+  const M behind = leaf::is_behind(r, cosine, t, seen.z, a, b, depth, f.orthographic,
+                                   f.thickness > 0, hn::Set(d, f.thickness));
   return hn::And(behind, inside);
 }
 
@@ -161,32 +124,22 @@ void SumPixels(const Frame& f, int row, int width, const Sums& out) {
     V open = zero, open_cosine = zero;
     Vector sum{zero, zero, zero}, sum_cosine{zero, zero, zero}, light{zero, zero, zero};
     for (int i = 0; i < f.samples; ++i) {
-      // Strata of equal solid angle in height, the golden angle in azimuth.
-      const V cosine =
-          hn::NegMulAdd(hn::Add(hn::Set(d, static_cast<float>(i)), shift), stratum, one);
-      const V sine = hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, one), zero));
+      // The golden angle in azimuth.
+      const V cosine = leaf::stratum_cosine(hn::Set(d, static_cast<float>(i)), shift, stratum);
+      const V sine = leaf::sine_of(cosine);
       const V c = hn::Set(d, f.cosine[i]), s = hn::Set(d, f.sine[i]);
       const V lx = hn::Mul(sine, hn::MulSub(c, tile_cos, hn::Mul(s, tile_sin)));
       const V ly = hn::Mul(sine, hn::MulAdd(s, tile_cos, hn::Mul(c, tile_sin)));
-      const Vector w{hn::MulAdd(lx, r.t.x, hn::MulAdd(ly, r.b.x, hn::Mul(cosine, r.n.x))),
-                     hn::MulAdd(lx, r.t.y, hn::MulAdd(ly, r.b.y, hn::Mul(cosine, r.n.y))),
-                     hn::MulAdd(lx, r.t.z, hn::MulAdd(ly, r.b.z, hn::Mul(cosine, r.n.z)))};
+      const Vector w = leaf::in_eye_space(r, lx, ly, cosine);
       V offset = hn::Add(hn::Set(d, f.offset[i]), tile_offset);
       offset = hn::Sub(offset, hn::Floor(offset));
 
       V visible = one;
       M free = valid;
       for (int k = 0; k < f.tests; ++k) {
-        // Denser towards the receiver, where occluders cover more of the hemisphere.
-        const V share = hn::Mul(hn::Add(hn::Set(d, static_cast<float>(k)), offset), step);
-        const V t = hn::Mul(hn::Mul(share, share), radius);
+        const V t = leaf::test_distance(hn::Set(d, static_cast<float>(k)), offset, step, radius);
         const M behind = Behind(f, r, w, cosine, t, free);
-        // V = 1 - rho at the first point that is behind.
-        V rest = zero;
-        if (f.quadratic) {
-          const V near = hn::NegMulAdd(t, inverse_radius, one);
-          rest = hn::NegMulAdd(near, near, one);
-        }
+        const V rest = leaf::visible_beyond(t, inverse_radius, f.quadratic);
         visible = hn::IfThenElse(behind, rest, visible);
         free = hn::AndNot(behind, free);
       }

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/leaf_scalar.h"
 #include "screen/method.h"
 
 namespace obscura {
+namespace leaf_scalar {
+#include "screen/mipmap/mipmap_leaf.h"
+}  // namespace leaf_scalar
 
 namespace {
 
@@ -46,7 +50,6 @@ class MipmapMethod final : public Method {
   }
 
  private:
-  // Means or minima of the finite depths among four; background where all four are.
   void build(const view::Geometry& g, Executor& executor) {
     const int count = mipmap_level_count(g.width, g.height);
     levels_.resize(count);
@@ -66,14 +69,8 @@ class MipmapMethod final : public Method {
         const int y0 = 2 * y, y1 = std::min(y0 + 1, fine.height() - 1);
         for (int x = 0; x < coarse.width(); ++x) {
           const int x0 = 2 * x, x1 = std::min(x0 + 1, fine.width() - 1);
-          float sum = 0, nearest = 0, finite = 0;
-          for (float d : {fine(x0, y0), fine(x1, y0), fine(x0, y1), fine(x1, y1)}) {
-            if (d == 0) continue;
-            nearest = finite == 0 ? d : std::min(nearest, d);
-            sum += d;
-            ++finite;
-          }
-          coarse(x, y) = finite == 0 ? 0 : mean ? sum / finite : nearest;
+          float four[] = {fine(x0, y0), fine(x1, y0), fine(x0, y1), fine(x1, y1)};
+          coarse(x, y) = leaf_scalar::depth_of_four(four, mean);
         }
       });
     }

@@ -10,12 +10,14 @@
 // After foreach_target.
 #include "core/gather-inl.h"
 #include "hwy/highway.h"
-#include "math/azimuth-inl.h"
-#include "math/slab-inl.h"
+#include "math/slice-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "screen/mipmap/mipmap_leaf.h"
+}  // namespace leaf
 
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
@@ -48,9 +50,7 @@ HWY_INLINE V ReadLevel(const MipmapFrame& f, int i, V u, V v) {
   const V b = Fetch(level, hn::Add(ix, one), iy), c = Fetch(level, ix, hn::Add(iy, one));
   const V e = Fetch(level, hn::Add(ix, one), hn::Add(iy, one));
   const V s = hn::Sub(x, fx), t = hn::Sub(y, fy);
-  const V top = hn::MulAdd(s, hn::Sub(b, a), a), bottom = hn::MulAdd(s, hn::Sub(e, c), c);
-  const V least = hn::Min(hn::Min(a, b), hn::Min(c, e));
-  return hn::IfThenElseZero(hn::Gt(least, hn::Zero(d)), hn::MulAdd(t, hn::Sub(bottom, top), top));
+  return leaf::between_depths(a, b, c, e, s, t);
 }
 
 template <FalloffKind kKind>
@@ -73,20 +73,20 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
     const V a =
         hn::Mul(perspective, hn::Mul(hn::Sub(u0, hn::Set(d, c.center_u)), hn::Set(d, c.scale_x)));
     const V b = hn::Mul(perspective, hn::Set(d, (v0 - c.center_v) * c.scale_y));
-    const Ray<V> ray = MakeRay(d, a, b);
-    const V camera = c.orthographic ? one : hn::Mul(p, ray.length);
+    const leaf::ViewRay ray = leaf::make_ray(a, b);
+    const V camera = c.orthographic ? one : hn::Mul(p, ray.ray_length);
     const V nu = hn::LoadU(d, g.normal_x.row(y) + at);
     const V nv = hn::Neg(hn::LoadU(d, g.normal_y.row(y) + at));
     const V nw = hn::Neg(hn::LoadU(d, g.normal_z.row(y) + at));
     V sum = zero;
     for (const MipmapDirection& direction : f.directions) {
-      auto step_at = [&](float step_u, float step_v) {
-        return ImageStep{step_u * c.scale_x, step_v * c.scale_y};
-      };
+      auto scaled_u = [&](float u) HWY_ATTR { return hn::Set(d, u * c.scale_x); };
+      auto scaled_v = [&](float v) HWY_ATTR { return hn::Set(d, v * c.scale_y); };
       const float du = direction.u, dv = direction.v;
-      const Azimuth<V> azimuth = MakeAzimuth(d, ray, step_at(du, dv), nu, nv, nw);
-      const Slice<V> slice = MakeSlice(d, azimuth.nz, azimuth.nt, camera, perspective);
-      Horizon<D> h = StartHorizon(d, slice, true);
+      const leaf::Azimuth azimuth = leaf::make_azimuth(ray, scaled_u(du), scaled_v(dv), nu, nv, nw);
+      const leaf::Slice slice = leaf::make_slice(azimuth.nz, azimuth.nt, camera, perspective);
+      leaf::SliceIntegral<kKind, false, SliceSums::kVisibility> slices(*f.rho);
+      leaf::Horizon h = slices.start_horizon(slice, true);
       // Distance to the image's last texel centres along the direction.
       V edge = hn::Set(d, 1e9f);
       if (du > 1e-6f) edge = hn::Mul(hn::Sub(hn::Set(d, last_u), u0), hn::Set(d, 1 / du));
@@ -110,14 +110,12 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
           q = hn::MulAdd(hn::Set(d, step.blend), hn::Sub(coarse, q), q);
         }
         q = hn::IfThenElse(found, q, one);
-        const V pixels = c.orthographic ? t : hn::Mul(t, q);
-        const V px = hn::Mul(pixels, azimuth.lateral);
-        const V py = hn::NegMulAdd(pixels, azimuth.along_ray, hn::Mul(ray.length, hn::Sub(p, q)));
-        AddPoint<kKind, false, false>(d, *f.rho, slice, px, py,
-                                      hn::And(hn::And(found, fresh), surface), one, h);
+        const leaf::PyramidPoint at = leaf::pyramid_point(t, q, p, ray.ray_length, azimuth.along,
+                                                          azimuth.across, c.orthographic);
+        slices.add_point(slice, at.x, at.y, hn::And(hn::And(found, fresh), surface), false, one, h);
       }
-      const V w = AzimuthBetween(d, ray, step_at(direction.low_u, direction.low_v),
-                                 step_at(direction.high_u, direction.high_v));
+      const V w = leaf::azimuth_between(ray, scaled_u(direction.low_u), scaled_v(direction.low_v),
+                                        scaled_u(direction.high_u), scaled_v(direction.high_v));
       sum = hn::MulAdd(w, h.sum, sum);
     }
     const V visibility = hn::NegMulAdd(sum, hn::Set(d, 1 / kPi), one);

@@ -4,6 +4,8 @@
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
+#include "math/slice_leaf.h"
+#include "screen/mipmap/mipmap_leaf.h"
 #include "screen/mipmap/mipmap_io.h"
 #include "gpu/results.glsl"
 #include "gpu/view.glsl"
@@ -13,8 +15,8 @@ const int kSums = 0;
 
 float rho_table(int i) { return uintBitsToFloat(quads[view.rho_start + i / 4][i % 4]); }
 
-#include "math/falloff.glsl"
-#include "math/slab.glsl"
+#include "gpu/rho.glsl"
+#include "math/horizon_leaf.h"
 #include "screen/mipmap/mipmap.glsl"
 
 const float kPi = 3.14159265;
@@ -32,19 +34,15 @@ float read_level(int level, vec2 at) {
   const float b = fetch(level, i + ivec2(1, 0)), c = fetch(level, i + ivec2(0, 1));
   const float e = fetch(level, i + 1);
   const vec2 s = p - floor(p);
-  const float top = fma(s.x, b - a, a), bottom = fma(s.x, e - c, c);
-  return min(min(a, b), min(c, e)) > 0.0 ? fma(s.y, bottom - top, top) : 0.0;
+  return between_depths(a, b, c, e, s.x, s.y);
 }
 
 struct Receiver {
-  float depth, ray_length;
-  vec2 at, ray;
+  float depth;
+  ViewRay ray;
+  vec2 at;
   vec3 normal;  // (u, v, w), w away from the camera
 };
-
-float along_ray(Receiver r, vec2 e) {
-  return part_along_ray(r.ray.x, r.ray.y, 1.0 / r.ray_length, e.x, e.y);
-}
 
 // Pixels to the image's last texel centres along a direction.
 float distance_to_edge(vec2 at, vec2 d) {
@@ -54,7 +52,7 @@ float distance_to_edge(vec2 at, vec2 d) {
              abs(d.y) > 1e-6 ? (far.y - at.y) / d.y : 1e9);
 }
 
-void add_samples(Receiver r, Slice slice, vec2 d, float along, float across, inout Horizon h) {
+void add_samples(Receiver r, Slice slice, vec2 d, Azimuth azimuth, inout Horizon h) {
   const float edge = distance_to_edge(r.at, d);
   float before = 0.0;
   for (int k = 0; k < view.step_count; ++k) {
@@ -72,9 +70,9 @@ void add_samples(Receiver r, Slice slice, vec2 d, float along, float across, ino
       q = fma(uintBitsToFloat(entry.z), coarse - q, q);
     }
     if (!found) q = 1.0;
-    const float pixels = view.orthographic != 0 ? t : t * q;
-    add_point(slice, vec2(pixels * across, r.ray_length * (r.depth - q) - pixels * along), found,
-              h);
+    const PyramidPoint p = pyramid_point(t, q, r.depth, r.ray.ray_length, azimuth.along,
+                                         azimuth.across, view.orthographic != 0);
+    add_point(slice, p.x, p.y, found, false, 1.0, h);
   }
 }
 
@@ -84,17 +82,14 @@ float slice_of(Receiver r, int k) {
   const vec4 a = uintBitsToFloat(quads[view.directions + 2 * k]);
   const vec2 middle = a.xy * scale, low = a.zw * scale;
   const vec2 high = uintBitsToFloat(quads[view.directions + 2 * k + 1].xy) * scale;
-  const float along = along_ray(r, middle), across = part_across_ray(along, dot(middle, middle));
-  const float nz = -dot(r.normal, vec3(r.ray, 1.0)) / r.ray_length;
-  const float nt = (dot(r.normal.xy, middle) + nz * along) / across;
+  const Azimuth azimuth =
+      make_azimuth(r.ray, middle.x, middle.y, r.normal.x, r.normal.y, r.normal.z);
   const bool parallel = view.orthographic != 0;
-  const Slice slice =
-      make_slice(nz, nt, parallel ? 1.0 : r.depth * r.ray_length, parallel ? 0.0 : 1.0);
+  const Slice slice = make_slice(azimuth.nz, azimuth.nt, parallel ? 1.0 : r.depth * r.ray.ray_length,
+                                 parallel ? 0.0 : 1.0);
   Horizon h = start_horizon(slice, true);
-  add_samples(r, slice, a.xy, along, across, h);
-  const float area = abs(low.x * high.y - low.y * high.x);
-  return h.sum * angle_around_ray(1.0 / r.ray_length, along_ray(r, low), along_ray(r, high), area,
-                                  dot(low, high));
+  add_samples(r, slice, a.xy, azimuth, h);
+  return h.sum * azimuth_between(r.ray, low.x, low.y, high.x, high.y);
 }
 
 void main() {
@@ -106,10 +101,10 @@ void main() {
   Receiver r;
   r.depth = d;
   r.at = vec2(texel) + 0.5;
-  r.ray = view.orthographic != 0 ? vec2(0.0)
-                                 : (r.at - vec2(view.center_u, view.center_v)) *
-                                       vec2(view.scale_x, view.scale_y);
-  r.ray_length = sqrt(dot(r.ray, r.ray) + 1.0);
+  const vec2 ray = view.orthographic != 0 ? vec2(0.0)
+                                          : (r.at - vec2(view.center_u, view.center_v)) *
+                                                vec2(view.scale_x, view.scale_y);
+  r.ray = make_ray(ray.x, ray.y);
   r.normal = vec3(n.x, -n.y, -n.z);
   float sum = 0.0;
   for (int k = 0; d < kInf && k < kDirections; ++k) sum += slice_of(r, k);

@@ -2,6 +2,7 @@
 // them in shared memory. Means or minima of the finite depths among four; 0 where none is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "screen/mipmap/mipmap_leaf.h"
 #include "screen/mipmap/mipmap_pyramid_io.h"
 #include "gpu/view.glsl"
 
@@ -14,16 +15,9 @@ shared float tiles[2][kTile * kTile];
 // Texel 2 p of a tile `size` a side and its neighbours, those beyond the level's edge again.
 float halved(int from, int size, ivec2 p, ivec2 last) {
   const ivec2 a = 2 * p, b = min(a + 1, last);
-  const vec4 four = vec4(tiles[from][a.y * size + a.x], tiles[from][a.y * size + b.x],
-                         tiles[from][b.y * size + a.x], tiles[from][b.y * size + b.x]);
-  float sum = 0.0, nearest = 0.0, finite = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    if (four[i] == 0.0) continue;
-    nearest = finite == 0.0 ? four[i] : min(nearest, four[i]);
-    sum += four[i];
-    finite += 1.0;
-  }
-  return finite == 0.0 ? 0.0 : kMean ? sum / finite : nearest;
+  const float four[4] = float[](tiles[from][a.y * size + a.x], tiles[from][a.y * size + b.x],
+                                tiles[from][b.y * size + a.x], tiles[from][b.y * size + b.x]);
+  return depth_of_four(four, kMean);
 }
 
 void main() {

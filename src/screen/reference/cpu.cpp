@@ -104,14 +104,14 @@ class ReferenceMethod final : public Method {
     write(o.uniform_integral, p, e.uniform.direction, 2);
     if (o.bent_normal.empty() && o.cone_angle.empty()) return;
     const double* v = e.uniform.direction;
-    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    // Where nothing is visible the direction is the normal, and an open cone goes with it.
-    const bool known = length > 1e-6 * e.uniform.visibility;
     const int x = p.x + g.guard_band.left, y = p.y + g.guard_band.top;
-    const double normal[] = {g.normal_x(x, y), g.normal_y(x, y), g.normal_z(x, y)};
-    write(o.bent_normal, p, known ? v : normal, known ? 1 / length : 1);
-    const double mean = known ? length / e.uniform.visibility : 0;
-    write(o.cone_angle, p, cone_angle(ConeEstimate::kExact, static_cast<float>(mean)));
+    auto twice = [](double part) { return static_cast<float>(2 * part); };
+    const BentCone cone = bent_cone(ConeEstimate::kExact, {twice(v[0]), twice(v[1]), twice(v[2])},
+                                    static_cast<float>(e.uniform.visibility),
+                                    {g.normal_x(x, y), g.normal_y(x, y), g.normal_z(x, y)});
+    const double direction[] = {cone.direction[0], cone.direction[1], cone.direction[2]};
+    write(o.bent_normal, p, direction, 1);
+    write(o.cone_angle, p, cone.angle);
   }
 
   const ReferenceSettings settings_;

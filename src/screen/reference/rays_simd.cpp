@@ -190,7 +190,7 @@ RaySums Sum(const math::Rho& rho, const RayBatch& batch, int begin, int end) {
     const auto inside = hn::And(hn::Ge(index, hn::Set(d, static_cast<float>(begin))),
                                 hn::Lt(index, hn::Set(d, static_cast<float>(end))));
     const V distance = hn::IfThenElseZero(inside, hn::Load(d, batch.distance + i));
-    const V weight = EvaluateRho<kKind>(d, rho, hn::Min(distance, longest));
+    const V weight = EvaluateRho<kKind>(rho, hn::Min(distance, longest));
     const V all = hn::Sub(one, hn::IfThenElseZero(hn::Le(distance, longest), weight));
     const V v = hn::IfThenElseZero(inside, all);
     open = hn::Add(open, v);

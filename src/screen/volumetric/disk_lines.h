@@ -33,7 +33,7 @@ inline double sum_of_weights(std::span<const DiskSample> pattern, bool quadratic
 inline DiskLine disk_line(const DiskSample& s, bool quadratic, double unit, double weight_sum) {
   const double square = static_cast<double>(s.x) * s.x + static_cast<double>(s.y) * s.y;
   const double lateral = std::sqrt(square), extent = std::sqrt(1 - square);
-  const double half = quadratic ? math::quadratic_line(extent, lateral) : extent * unit;
+  const double half = quadratic ? math::quadratic_line_integral(extent, lateral) : extent * unit;
   return {std::max(static_cast<float>(lateral), 1e-6f), static_cast<float>(extent * unit),
           static_cast<float>(half),
           static_cast<float>(disk_weight(s, quadratic) / weight_sum / (2 * half))};

@@ -7,7 +7,7 @@
 #endif
 
 #include "hwy/highway.h"
-#include "math/sphere_line-inl.h"
+#include "math/leaf-inl.h"
 #include "view/taps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +28,7 @@ struct QuadraticRho {
   static constexpr bool kQuadratic = true;
   template <class Frame>
   HWY_INLINE QuadraticRho(const Frame& f, int i) : lateral(hn::Set(D(), f.lateral[i])) {}
-  HWY_INLINE V operator()(V z) const { return QuadraticLine(D(), z, lateral); }
+  HWY_INLINE V operator()(V z) const { return leaf::quadratic_line(z, lateral); }
   V lateral;
 };
 

@@ -12,7 +12,7 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/azimuth-inl.h"
+#include "math/leaf-inl.h"
 
 #ifndef OBSCURA_TESTS_UNIT_MATH_AZIMUTH_TEST_ONCE
 #define OBSCURA_TESTS_UNIT_MATH_AZIMUTH_TEST_ONCE
@@ -37,13 +37,13 @@ namespace HWY_NAMESPACE {
 
 FrameResult FrameOf(const FrameCase& c) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const hn::ScalableTag<float> d;
-  const auto ray = MakeRay(d, hn::Set(d, c.a), hn::Set(d, c.b));
-  const auto s = MakeAzimuth(d, ray, ImageStep{c.step_u, c.step_v}, hn::Set(d, c.nu),
-                             hn::Set(d, c.nv), hn::Set(d, c.nw));
-  const auto width =
-      AzimuthBetween(d, ray, ImageStep{c.low_u, c.low_v}, ImageStep{c.high_u, c.high_v});
-  return {hn::GetLane(s.along_ray), hn::GetLane(s.lateral), hn::GetLane(s.nz), hn::GetLane(s.nt),
+  using leaf::real;
+  const leaf::ViewRay ray = leaf::make_ray(real(c.a), real(c.b));
+  const leaf::Azimuth s =
+      leaf::make_azimuth(ray, real(c.step_u), real(c.step_v), real(c.nu), real(c.nv), real(c.nw));
+  const leaf::Real width =
+      leaf::azimuth_between(ray, real(c.low_u), real(c.low_v), real(c.high_u), real(c.high_v));
+  return {hn::GetLane(s.along), hn::GetLane(s.across), hn::GetLane(s.nz), hn::GetLane(s.nt),
           hn::GetLane(width)};
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace obscura {
 namespace {
@@ -84,7 +86,31 @@ TEST(Cone, UniformIntegralIsTwiceAmbientOcclusionTimesTheMean) {
     EXPECT_NEAR(uniform_integral_factor(ao) * mean, integral, 1e-6);
     EXPECT_NEAR(mean_length_of_uniform_integral(integral, ao), mean, 1e-6);
   }
-  EXPECT_EQ(mean_length_of_uniform_integral(0, 0), 0.5f);
+  EXPECT_EQ(mean_length_of_uniform_integral(0, 0), 1);
+}
+
+TEST(Cone, BentConesAreTheMeanAndItsAngle) {
+  const Moments m = cap_moments(40 * kDegree, 30 * kDegree);
+  std::array<float, 3> integral{};
+  for (int k = 0; k < 3; ++k) integral[k] = static_cast<float>(m.sum[k] / kPi);
+  const auto ao = static_cast<float>(m.open / (2 * kPi));
+  const BentCone cone = bent_cone(ConeEstimate::kExact, integral, ao, {0, 0, 1});
+  EXPECT_NEAR(std::atan2(cone.direction[0], cone.direction[2]) / kDegree, 30, 0.1);
+  EXPECT_NEAR(cone.angle / kDegree, 40, 0.5);
+}
+
+TEST(Cone, ClosedPointsHaveTheirNormalAndNoOpening) {
+  const std::array<float, 3> normal{0.6f, 0, 0.8f};
+  for (ConeEstimate e : {ConeEstimate::kExact, ConeEstimate::kPaper}) {
+    // Nothing visible, next to nothing, and numbers of which one says that nothing is.
+    for (const auto& [x, ao] : {std::pair{0.0f, 0.0f}, {5e-4f, 2.5e-4f}, {0.3f, 0.0f}}) {
+      const BentCone cone = bent_cone(e, {x, 0, 0}, ao, normal);
+      EXPECT_EQ(cone.direction, normal) << x;
+      EXPECT_EQ(cone.angle, 0) << x;
+    }
+    EXPECT_EQ(cone_angle(e, mean_length_of_uniform_integral(0, 0)), 0);
+    EXPECT_NEAR(bent_cone(e, {0, 0, 1}, 1, normal).angle, kPi / 2, 1e-6);
+  }
 }
 
 TEST(Cone, CosineWeightedMeansHaveTheirOwnInverse) {

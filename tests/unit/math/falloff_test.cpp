@@ -21,13 +21,13 @@ namespace HWY_NAMESPACE {
 // Evaluates `count` distances, any number, as kernels do.
 void EvaluateAll(const math::Rho& rho, const float* distances, int count, float* out) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<float, 16> d;
+  const leaf::D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   math::with_falloff_kind(rho.kind, [&]<FalloffKind kKind>() HWY_ATTR {
     for (int i = 0; i < count; i += lanes) {
       HWY_ALIGN float buffer[16] = {};
       for (int k = 0; k < lanes && i + k < count; ++k) buffer[k] = distances[i + k];
-      hn::Store(EvaluateRho<kKind>(d, rho, hn::Load(d, buffer)), d, buffer);
+      hn::Store(EvaluateRho<kKind>(rho, hn::Load(d, buffer)), d, buffer);
       for (int k = 0; k < lanes && i + k < count; ++k) out[i + k] = buffer[k];
     }
   });

@@ -16,7 +16,7 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "math/slab-inl.h"
+#include "math/slice-inl.h"
 
 #ifndef OBSCURA_TESTS_UNIT_MATH_SLAB_TEST_ONCE
 #define OBSCURA_TESTS_UNIT_MATH_SLAB_TEST_ONCE
@@ -51,14 +51,14 @@ namespace HWY_NAMESPACE {
 template <FalloffKind kKind, bool kChord, bool kPartial>
 SliceResult Evaluate(const math::Rho& rho, const SliceCase& c) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const hn::ScalableTag<float> d;
-  const auto s = MakeSlice(d, hn::Set(d, c.nz), hn::Set(d, c.nt), hn::Set(d, c.camera),
-                           hn::Set(d, c.perspective ? 1.0f : 0.0f));
-  auto h = StartHorizon(d, s, c.from_receiver);
-  const auto all = hn::Ge(hn::Zero(d), hn::Zero(d));
+  using leaf::real;
+  leaf::SliceIntegral<kKind, kChord, SliceSums::kVisibility> slices(rho);
+  const leaf::Slice s =
+      leaf::make_slice(real(c.nz), real(c.nt), real(c.camera), real(c.perspective ? 1.0f : 0.0f));
+  leaf::Horizon h = slices.start_horizon(s, c.from_receiver);
   for (const SlicePoint& p : c.points) {
-    AddPoint<kKind, kChord, kPartial>(d, rho, s, hn::Set(d, p.x), hn::Set(d, p.y),
-                                      p.valid ? all : hn::Not(all), hn::Set(d, p.share), h);
+    slices.add_point(s, real(p.x), real(p.y), leaf::leaf_truth(p.valid), kPartial, real(p.share),
+                     h);
   }
   return {hn::GetLane(h.sum), hn::GetLane(h.cosine)};
 }

@@ -2,27 +2,21 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
+#include "math/slab_leaf.h"
+#include "math/azimuth_leaf.h"
 #include "math/sphere_line_leaf.h"
 #include "screen/volumetric/area/area_leaf.h"
 #include "view/taps_leaf.h"
+#include "view/receiver_leaf.h"
 #include "screen/volumetric/area/area_io.h"
 #include "gpu/view.glsl"
 #include "screen/volumetric/area/moments.glsl"
-#include "view/taps.glsl"
+#include "view/receiver.glsl"
 #include "gpu/visibility_target.glsl"
 
 float rho_integral(float z, float lateral) { return kQuadratic ? quadratic_line(z, lateral) : z; }
 
-// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma.
-// Integral of rho times visibility over [-zs, zs].
-float integral(float mu, float sigma, float zs, float half_line, float lateral) {
-  const float end = mu + sigma;
-  const float lo = clamp(mu - sigma, -zs, zs), hi = clamp(end, -zs, zs);
-  const float rho_lo = rho_integral(lo, lateral), rho_hi = rho_integral(hi, lateral);
-  const float ramp = kQuadratic ? quadratic_ramp(lo, hi, end, rho_lo, rho_hi, lateral)
-                                : constant_ramp(lo, hi, end);
-  return ramp / (2.0 * sigma) + (rho_lo + half_line);
-}
+#include "screen/volumetric/area/sample_leaf.h"
 
 int level_start(int level) { return floatBitsToInt(tables[view.levels + 2 * level]); }
 float kernel_width(int level) { return tables[view.levels + 2 * level + 1]; }
@@ -47,14 +41,12 @@ struct Place {
   ivec2 pixel;    // at its centre
 };
 
-Place place_at(Receiver r, ivec2 pixel, float sample_level, vec2 jitter) {
-  // Near the border the level sinks until the next one's kernel fits into the image.
+Place place_at(TapReceiver r, ivec2 pixel, float sample_level, vec2 jitter) {
   const ivec2 room = min(pixel, ivec2(view.width, view.height) - 1 - pixel);
   const float least = float(min(room.x, room.y) + 2);
-  const float fits = float(floatBitsToInt(least)) * (1.0 / 8388608.0) - 129.5;
-  const vec2 reach = max(r.reach, vec2(1e-3));
-  const float wanted = 0.5 * log2(reach.x * reach.y) - 0.5 + sample_level;
-  const float level = max(min(wanted, min(fits, float(view.level_count) - 1.5)), -0.5);
+  const float reach = 0.5 * log2(max(r.reach_x, 1e-3) * max(r.reach_y, 1e-3)) - 0.5;
+  const float level = level_of_sample(reach, sample_level, float(floatBitsToInt(least)),
+                                      float(view.level_count) - 1.5);
   const float rounded = roundEven(level);
   Place s;
   s.level = int(rounded);
@@ -86,9 +78,13 @@ void main() {
     store_visibility(p, 1.0);
     return;
   }
-  Receiver r = receiver_at(p, z);
-  if (kNormals) set_normal(r, normals[p.y * view.visible_width + p.x].xyz);
-  const float per_radius = 1.0 / view.radius, gradient = length(r.plane);
+  TapReceiver r = receiver_at(p, z);
+  if (kNormals) {
+    const vec3 n = normals[p.y * view.visible_width + p.x].xyz;
+    set_tap_normal(n.x, n.y, n.z, r);
+  }
+  const float per_radius = 1.0 / view.radius, gradient = length(vec2(r.plane_x, r.plane_y));
+  const vec2 reach = vec2(r.reach_x, r.reach_y);
   vec2 noise = vec2(0.0);
   if (kRotate) {
     const ivec2 place = pattern_place(p) % kNoise;
@@ -107,30 +103,27 @@ void main() {
                     noise.y * offset.x - noise.x * offset.y);
     }
     const float lateral = tables[t + 2], zs = tables[t + 3], half_line = tables[t + 4];
-    const ivec2 pixel = find_texel(r, r.reach * offset);
+    const ivec2 pixel = find_texel(p, reach * offset);
     const Place place = place_at(r, pixel, tables[t + 6], jitter);
     const vec3 m = look_up(place);
-    const float mu = clamp((m.y - z) * per_radius, -kMaxOffset, kMaxOffset);
-    const float sigma = clamp(m.z * per_radius, kLeastDeviation, kMaxOffset);
-
-    float bound = 2.0 * half_line, line = integral(mu, sigma, zs, half_line, lateral);
+    const float mu = bounded_mean((m.y - z) * per_radius);
+    const float sigma = bounded_deviation(m.z * per_radius);
+    PlaneMoments plane = PlaneMoments(0.0, 0.0);
     if (kNormals) {
-      const vec2 q = plane_at(r, vec2(place.pixel - r.at));
-      const PlaneMoments plane = plane_moments(
-          q.x, q.y, gradient, r.distance, r.perspective, kernel_width(place.level),
-          kernel_width(place.level + 1), place.blend, per_radius);
-      bound = integral(plane.mean, max(plane.deviation, kLeastDeviation), zs, half_line, lateral);
-      line = min(line, bound);
+      const vec2 k = vec2(place.pixel - whole_image(p));
+      const TexelPlane q = plane_at(r, k.x, k.y);
+      plane = plane_moments(q.q, q.slope, gradient, r.distance, r.perspective,
+                            kernel_width(place.level), kernel_width(place.level + 1), place.blend,
+                            per_radius);
     }
+    float behind = 0.0;
     if (kThickness) {
-      const float behind = min(thickness_at(r, vec2(pixel - r.at)) * per_radius, kMaxOffset);
-      const float back = min(mu + behind, kMaxOffset);
-      line += bound - min(integral(back, sigma, zs, half_line, lateral), bound);
+      const vec2 k = vec2(pixel - whole_image(p));
+      behind = min(thickness_at(r, k.x, k.y, view.thickness) * per_radius, kMaxOffset);
     }
-    // Background occludes nothing.
-    line = mix(bound, line, m.x);
-    open += tables[t + 5] * line;
-    whole += tables[t + 5] * bound;
+    const SampleLine line = sample_line(mu, sigma, m.x, plane, behind, zs, half_line, lateral);
+    open += tables[t + 5] * line.open;
+    whole += tables[t + 5] * line.bound;
   }
   if (kNormals) open = whole > 0.0 ? open / whole : 1.0;
   store_visibility(p, open);

@@ -53,3 +53,26 @@ plane_moments(Real q, Real slope, Real gradient, Real distance, Real perspective
   moments.deviation = leaf_if_negative(slope, slant, real(0.0f));
   return moments;
 }
+
+// Which level of the pyramid a sample sees, less 1/2, so that the integer to round to is the one
+// below: `reach` is the level of the sphere's radius in pixels, `sample_level` the sample's from
+// there. Near the border the level sinks until the next one's kernel, 4 2^l - 2 pixels to each
+// side, fits into the image: to log2(room + 2) - 2, linear between powers of two and so never too
+// large, which is how a float's bits lie; `room_bits` are those of room + 2.
+LEAF(Real) level_of_sample(Real reach, Real sample_level, Real room_bits, Real last) {
+  Real fits = leaf_fma(room_bits, real(1.0f / 8388608.0f), real(-129.5f));
+  return leaf_max(leaf_min(reach + sample_level, leaf_min(fits, last)), real(-0.5f));
+}
+
+// The mean depth offset and the deviation in radii, kept finite.
+LEAF(Real) bounded_mean(Real mean) {
+  return leaf_max(leaf_min(mean, real(kMaxOffset)), real(-kMaxOffset));
+}
+LEAF(Real) bounded_deviation(Real deviation) {
+  return leaf_max(leaf_min(deviation, real(kMaxOffset)), real(kLeastDeviation));
+}
+
+// What is open of a sample's line, and what the tangent plane leaves of it.
+struct SampleLine {
+  Real open, bound;
+};

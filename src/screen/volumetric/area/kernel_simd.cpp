@@ -13,39 +13,28 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "screen/volumetric/area/area_leaf.h"
-#undef LEAF
 }  // namespace leaf
 }  // namespace HWY_NAMESPACE
 
 namespace area::HWY_NAMESPACE {
 
 namespace leaf = obscura::HWY_NAMESPACE::leaf;
+using namespace leaf;
 using namespace obscura::HWY_NAMESPACE::volumetric;
 using obscura::HWY_NAMESPACE::GatherQuads;
 
-using leaf::kLeastDeviation;
-using leaf::kMaxOffset;
+// The shader's specialization constants are the class's parameters.
+HWY_INLINE V LateralOf(const ConstantRho&) { return hn::Zero(D()); }
+HWY_INLINE V LateralOf(const QuadraticRho& rho) { return rho.lateral; }
+template <class Rho, bool kNormals, bool kThickness>
+struct Sample {
+  static constexpr bool kQuadratic = Rho::kQuadratic;
+  const Rho& rho;
 
-// Integral of rho(z) (end - z) from lo to hi.
-HWY_INLINE V Ramp(const ConstantRho&, V lo, V hi, V end) {
-  return leaf::constant_ramp(lo, hi, end);
-}
-HWY_INLINE V Ramp(const QuadraticRho& rho, V lo, V hi, V end) {
-  return leaf::quadratic_ramp(lo, hi, end, rho(lo), rho(hi), rho.lateral);
-}
-
-// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma,
-// as a z + b with a = -1/(2 sigma), b = (mu + sigma)/(2 sigma). Integral of rho times it over [-zs,
-// zs].
-template <class Rho>
-HWY_INLINE V Integral(const Rho& rho, V mu, V sigma, V zs, V half) {
-  const V minus_zs = hn::Neg(zs), start = hn::Sub(mu, sigma), end = hn::Add(mu, sigma);
-  const V lo = hn::Max(hn::Min(start, zs), minus_zs), hi = hn::Max(hn::Min(end, zs), minus_zs);
-  const V per_width = leaf::leaf_reciprocal(hn::Add(sigma, sigma));
-  return hn::MulAdd(Ramp(rho, lo, hi, end), per_width, hn::Add(rho(lo), half));
-}
+  LEAF(Real) rho_integral(Real z, Real) { return rho(z); }
+#include "screen/volumetric/area/sample_leaf.h"
+};
 
 template <bool kNormals, bool kThickness>
 struct Block {
@@ -125,16 +114,10 @@ struct Levels {
     const D d;
     const DI di;
     const V half = hn::Set(d, 0.5f), round = hn::Set(d, kRound);
-    // Near the border the level sinks until the next one's kernel, 4 2^l - 2 pixels to each side,
-    // fits into the image: to log2(room + 2) - 2, linear between powers of two and so never too
-    // large, which is how a float's bits lie.
     const VI room_x = hn::Min(ix, hn::Sub(r.max_x, ix)), room_y = hn::Min(iy, hn::Sub(max_y, iy));
     const VI room = hn::Add(hn::Min(room_x, room_y), hn::Set(di, 2));
     const V bits = hn::ConvertTo(d, hn::BitCast(di, hn::ConvertTo(d, room)));
-    const V fits = hn::MulAdd(bits, hn::Set(d, 1.0f / (1 << 23)), hn::Set(d, -129.5f));
-    // All levels less 1/2, so that the integer to round to is the one below.
-    const V level =
-        hn::Max(hn::Min(hn::Add(reach, hn::Set(d, sample)), hn::Min(fits, last)), hn::Neg(half));
+    const V level = leaf::level_of_sample(reach, hn::Set(d, sample), bits, last);
     const V rounded = hn::Add(level, round);
     *blend = hn::Add(hn::Sub(level, hn::Sub(rounded, round)), half);
     return hn::Sub(hn::BitCast(di, rounded), hn::Set(di, kRoundBias));
@@ -154,9 +137,8 @@ struct PlaneUnderKernel {
 
   // Under the kernel between levels `level` and level + 1, (kx, ky) pixels from the receiver.
   HWY_INLINE leaf::PlaneMoments Moments(const Receivers& r, VI level, V blend, V kx, V ky) const {
-    V q, slope;
-    r.Plane(kx, ky, &q, &slope);
-    return leaf::plane_moments(q, slope, gradient, r.distance, r.perspective,
+    const leaf::TexelPlane p = leaf::plane_at(r, kx, ky);
+    return leaf::plane_moments(p.q, p.slope, gradient, r.distance, r.perspective,
                                LookUp<V>(f.width, level), LookUp<V>(f.width + 1, level), blend,
                                per_radius);
   }
@@ -171,7 +153,7 @@ HWY_INLINE void FindTaps(const AreaFrame& f, Receivers r, Vec3 n, Vec3 noise, in
   const D d;
   const V zero = hn::Zero(d), round = hn::Set(d, kRound);
   const Pyramid pyramid(f);
-  if constexpr (kNormals) r.SetNormal(&n);
+  if constexpr (kNormals) r.SetNormal(n);
   const PlaneUnderKernel plane(f, r);
   const Levels levels(f, r);
   const V xc = hn::Mul(r.reach_x, noise.x), xs = hn::Mul(r.reach_x, noise.y);
@@ -203,7 +185,8 @@ HWY_INLINE void FindTaps(const AreaFrame& f, Receivers r, Vec3 n, Vec3 noise, in
     }
     if constexpr (kThickness) {
       r.Offset(ix, hn::Sub(iy, levels.middle), &kx, &ky);
-      const V depth = hn::Mul(r.DepthOfThickness(kx, ky, f.thickness), plane.per_radius);
+      const V depth =
+          hn::Mul(leaf::thickness_at(r, kx, ky, hn::Set(d, f.thickness)), plane.per_radius);
       hn::Store(hn::Min(depth, hn::Set(d, kMaxOffset)), d, block->behind[v][i]);
     }
   }
@@ -221,8 +204,7 @@ template <class Block>
 HWY_INLINE void Fetch(const AreaFrame& f, V z, int v, const Block& block, Moments* moments) {
   const D d;
   const DI di;
-  const V per_radius = hn::Set(d, 1 / f.view.radius), far = hn::Set(d, kMaxOffset);
-  const V least = hn::Set(d, kLeastDeviation);
+  const V per_radius = hn::Set(d, 1 / f.view.radius);
   const float* HWY_RESTRICT base = reinterpret_cast<const float*>(f.texels);
   for (int i = 0; i < f.samples; ++i) {
     V texel[4];  // the means, then the deviations of two levels
@@ -235,8 +217,8 @@ HWY_INLINE void Fetch(const AreaFrame& f, V z, int v, const Block& block, Moment
     const V mu = hn::Mul(hn::Sub(mix(texel[0], texel[1]), z), per_radius);
     const V sigma = hn::Mul(mix(texel[2], texel[3]), per_radius);
     const V share = mix(share_of(texel[2]), share_of(texel[3]));
-    hn::Store(hn::Max(hn::Min(mu, far), hn::Neg(far)), d, moments->mu[i]);
-    hn::Store(hn::Max(hn::Min(sigma, far), least), d, moments->sigma[i]);
+    hn::Store(leaf::bounded_mean(mu), d, moments->mu[i]);
+    hn::Store(leaf::bounded_deviation(sigma), d, moments->sigma[i]);
     hn::Store(hn::Mul(share, hn::Set(d, 1.0f / 255)), d, moments->share[i]);
   }
 }
@@ -247,7 +229,6 @@ template <class Rho, bool kNormals, bool kThickness>
 HWY_INLINE V SumTaps(const AreaFrame& f, V z, int v, const Block<kNormals, kThickness>& block) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const V least = hn::Set(d, kLeastDeviation), far = hn::Set(d, kMaxOffset);
   Moments moments;
   Fetch(f, z, v, block, &moments);
   V open = zero, whole = zero;
@@ -255,22 +236,17 @@ HWY_INLINE V SumTaps(const AreaFrame& f, V z, int v, const Block<kNormals, kThic
     const Rho rho(f, i);
     const V zs = hn::Set(d, f.extent[i]), half = hn::Set(d, f.half[i]);
     const V mu = hn::Load(d, moments.mu[i]), sigma = hn::Load(d, moments.sigma[i]);
-    V bound = hn::Add(half, half), line = Integral(rho, mu, sigma, zs, half);
+    leaf::PlaneMoments plane{zero, zero};
     if constexpr (kNormals) {
-      const V slant = hn::Max(hn::Load(d, block.slant[v][i]), least);
-      bound = Integral(rho, hn::Load(d, block.plane[v][i]), slant, zs, half);
-      line = hn::Min(line, bound);
+      plane = {hn::Load(d, block.plane[v][i]), hn::Load(d, block.slant[v][i])};
     }
-    if constexpr (kThickness) {
-      // And what is free again behind the occluder (Loos and Sloan 2010, section 4.3).
-      const V back = hn::Min(hn::Add(mu, hn::Load(d, block.behind[v][i])), far);
-      line = hn::Add(line, hn::Sub(bound, hn::Min(Integral(rho, back, sigma, zs, half), bound)));
-    }
-    // Background occludes nothing.
-    line = hn::MulAdd(hn::Load(d, moments.share[i]), hn::Sub(line, bound), bound);
+    V behind = zero;
+    if constexpr (kThickness) behind = hn::Load(d, block.behind[v][i]);
+    const leaf::SampleLine line = Sample<Rho, kNormals, kThickness>{rho}.sample_line(
+        mu, sigma, hn::Load(d, moments.share[i]), plane, behind, zs, half, LateralOf(rho));
     const V weight = hn::Set(d, f.weight[i]);
-    open = hn::MulAdd(weight, line, open);
-    if constexpr (kNormals) whole = hn::MulAdd(weight, bound, whole);
+    open = hn::MulAdd(weight, line.open, open);
+    if constexpr (kNormals) whole = hn::MulAdd(weight, line.bound, whole);
   }
   if constexpr (kNormals) {
     open = hn::IfThenElse(hn::Gt(whole, zero), hn::Div(open, whole), one);

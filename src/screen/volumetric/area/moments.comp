@@ -28,7 +28,7 @@ vec3 load(ivec2 p) {
 vec3 merge(vec3 cell[5]) {
   float w[5], m[5], v[5], sum = 0.0;
   for (int k = 0; k < 5; ++k) {
-    w[k] = kWeights[k] * cell[k].x;
+    w[k] = kMomentWeights[k] * cell[k].x;
     m[k] = cell[k].y;
     v[k] = cell[k].z;
     sum += w[k];

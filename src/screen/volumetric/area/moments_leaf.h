@@ -1,6 +1,9 @@
 // Leaf functions, C++ and GLSL: see math/leaf-inl.h. No include guard, for it is included once per
 // SIMD target.
 
+const float kMomentWeights[5] =
+    LEAF_LIST(1.0f / 16.0f, 4.0f / 16.0f, 6.0f / 16.0f, 4.0f / 16.0f, 1.0f / 16.0f);
+
 // Five pixels as one by the law of total variance; w are their shares of surface times weights.
 
 // Of their means m, relative to the middle one's, which is near the result, so that little is

@@ -13,9 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "screen/volumetric/area/moments_leaf.h"
-#undef LEAF
 }  // namespace leaf
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -24,14 +22,13 @@ void MergeMoments(const MomentRow rows[5], int width, float* HWY_RESTRICT share,
                   float* HWY_RESTRICT mean, float* HWY_RESTRICT variance) {
   const hn::ScalableTag<float> d;
   using V = hn::Vec<decltype(d)>;
-  constexpr float kWeights[5] = {1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
   const V zero = hn::Zero(d);
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int x = 0; x < width; x += lanes) {
     V w[5], m[5], v[5];
     V sum = zero;
     for (int k = 0; k < 5; ++k) {
-      w[k] = hn::Mul(hn::Set(d, kWeights[k]), hn::LoadU(d, rows[k].share + x));
+      w[k] = hn::Mul(hn::Set(d, leaf::kMomentWeights[k]), hn::LoadU(d, rows[k].share + x));
       m[k] = hn::LoadU(d, rows[k].mean + x);
       v[k] = hn::LoadU(d, rows[k].variance + x);
       sum = hn::Add(sum, w[k]);

@@ -12,19 +12,24 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
-#define LEAF(type) HWY_INLINE type
 #include "screen/volumetric/line/line_leaf.h"
-#undef LEAF
 }  // namespace leaf
 }  // namespace HWY_NAMESPACE
 
 namespace line::HWY_NAMESPACE {
 
 namespace leaf = obscura::HWY_NAMESPACE::leaf;
+using namespace leaf;
 using namespace obscura::HWY_NAMESPACE::volumetric;
 using obscura::HWY_NAMESPACE::GatherLanes;
 
-constexpr float kMaxThickness = 1e30f;  // in the lines' unit
+// The shader's specialization constant is the class's parameter.
+template <class Rho, bool kThickness>
+struct OpenLine {
+  const Rho& rho;
+  LEAF(Real) rho_integral(Real z, Real) { return rho(z); }
+#include "screen/volumetric/line/open_line_leaf.h"
+};
 
 template <bool kNormals, bool kThickness>
 struct Block {
@@ -48,12 +53,12 @@ HWY_INLINE void FindTaps(const LineFrame& f, Receivers r, Vec3 n, Vec3 noise, in
   // The sphere's centre: in pixels from the receiver, and how much nearer, in the lines' unit.
   V center_x = zero, center_y = zero, nearer = zero, center_z = r.z;
   if constexpr (kNormals) {
-    r.SetNormal(&n);
+    r.SetNormal(n);
     if (f.tangent) {
       const V half = hn::Set(d, 0.5f);
-      center_x = hn::Mul(hn::Mul(half, r.reach_x), n.x);
-      center_y = hn::Neg(hn::Mul(hn::Mul(half, r.reach_y), n.y));
-      const V lift = hn::Mul(hn::Set(d, 0.5f * f.view.radius), n.z);
+      center_x = hn::Mul(hn::Mul(half, r.reach_x), r.nx);
+      center_y = hn::Neg(hn::Mul(hn::Mul(half, r.reach_y), r.ny));
+      const V lift = hn::Mul(hn::Set(d, 0.5f * f.view.radius), r.nz);
       center_z = hn::Sub(r.z, lift);
       nearer = hn::Mul(lift, per_unit);
     }
@@ -85,14 +90,13 @@ HWY_INLINE void FindTaps(const LineFrame& f, Receivers r, Vec3 n, Vec3 noise, in
       V kx, ky;
       r.Offset(ix, iy, &kx, &ky);
       if constexpr (kNormals) {
-        V q, slope;
-        r.Plane(kx, ky, &q, &slope);
+        const leaf::TexelPlane plane = leaf::plane_at(r, kx, ky);
         const V zs = hn::Set(d, f.extent[i]);
-        hn::Store(leaf::plane_bound(hn::Mul(plane_scale, q), slope, nearer, zs), d,
+        hn::Store(leaf::plane_bound(hn::Mul(plane_scale, plane.q), plane.slope, nearer, zs), d,
                   block->plane[v][i]);
       }
       if constexpr (kThickness) {
-        const V depth = hn::Mul(r.DepthOfThickness(kx, ky, f.thickness), per_unit);
+        const V depth = hn::Mul(leaf::thickness_at(r, kx, ky, hn::Set(d, f.thickness)), per_unit);
         hn::Store(hn::Min(depth, hn::Set(d, kMaxThickness)), d, block->behind[v][i]);
       }
     }
@@ -109,20 +113,15 @@ HWY_INLINE V SumTaps(const LineFrame& f, int v, const Block<kNormals, kThickness
   V open = kNormals ? zero : hn::Set(d, 0.5f), whole = zero;
   for (int i = 0; i < f.samples; ++i) {
     const Rho rho(f, i);
-    const V zs = hn::Set(d, f.extent[i]), minus_zs = hn::Neg(zs);
+    const V zs = hn::Set(d, f.extent[i]);
     const V weight = hn::Set(d, f.weight[i]);
     const V tap = GatherLanes(d, base, block.index[v][i]);
     const V zu = kNormals ? hn::Load(d, block.plane[kNormals ? v : 0][i]) : zs;
     V offset = hn::Sub(tap, center);
     if (Rho::kQuadratic) offset = hn::Mul(offset, per_unit);
-    // L = max(min(zs, d, zp) + zs, 0) (Loos and Sloan 2010, section 4.1); the half from -zs to 0 is
-    // in `half`, or, without normals, in the 0.5 above.
-    V line = rho(hn::Max(hn::Min(offset, zu), minus_zs));
-    if constexpr (kThickness) {
-      // And what is free again behind the occluder (Loos and Sloan 2010, section 4.3).
-      const V back = hn::Add(offset, hn::Load(d, block.behind[kThickness ? v : 0][i]));
-      line = hn::Add(line, hn::Sub(rho(zu), rho(hn::Max(hn::Min(back, zu), minus_zs))));
-    }
+    const V behind = kThickness ? hn::Load(d, block.behind[kThickness ? v : 0][i]) : zero;
+    // The half from -zs to 0 is in `half`, or, without normals, in the 0.5 above.
+    const V line = OpenLine<Rho, kThickness>{rho}.open_line(offset, behind, zu, zs, zero);
     if constexpr (kNormals) {
       const V half = hn::Set(d, f.half[i]);
       open = hn::MulAdd(weight, hn::Add(line, half), open);

@@ -1,5 +1,7 @@
 // Leaf functions, C++ and GLSL: see math/leaf-inl.h. No include guard, for it is included once per
-// SIMD target.
+// SIMD target. Lengths are in the lines' unit.
+
+const float kMaxThickness = 1e30f;
 
 // Where the tangent plane bounds a line of half-length zs around the sphere's centre, which lies
 // `nearer` than the receiver: the plane's depth on the texel's ray is z + scaled_q / slope, unless

@@ -22,8 +22,8 @@ VoronoiGrid::VoronoiGrid(bool ball, int resolution) {
         y_.push_back(static_cast<float>(y));
         z_.push_back(static_cast<float>(z));
         constant_.push_back(static_cast<float>(ball ? h * h * h : 2 * half * h * h));
-        quadratic_.push_back(static_cast<float>(ball ? (1 - r) * (1 - r) * h * h * h
-                                                     : 2 * quadratic_line(half, r) * h * h));
+        quadratic_.push_back(static_cast<float>(
+            ball ? (1 - r) * (1 - r) * h * h * h : 2 * quadratic_line_integral(half, r) * h * h));
       }
     }
   }

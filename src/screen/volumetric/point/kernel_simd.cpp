@@ -9,9 +9,15 @@
 #include "view/taps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::point {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "screen/volumetric/point/point_leaf.h"
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+namespace point::HWY_NAMESPACE {
 
+namespace leaf = obscura::HWY_NAMESPACE::leaf;
 using namespace obscura::HWY_NAMESPACE::taps;
 using obscura::HWY_NAMESPACE::GatherLanes;
 
@@ -41,8 +47,10 @@ HWY_INLINE void FindTaps(const PointFrame& f, Receivers r, Vec3 n, Vec3 noise, i
                          Block<kPlane, kVaries, kThickness>* block) {
   const D d;
   const V zero = hn::Zero(d), round = hn::Set(d, kRound), radius = hn::Set(d, f.view.radius);
-  const V grain = hn::Mul(hn::Set(d, obscura::HWY_NAMESPACE::leaf::kDepthGrain), r.z);
-  if constexpr (kPlane) r.SetNormal(&n);
+  if constexpr (kPlane) {
+    r.SetNormal(n);
+    n = {r.nx, r.ny, r.nz};
+  }
   for (int i = 0; i < f.samples; ++i) {
     Vec3 s = {hn::Set(d, f.x[i]), hn::Set(d, f.y[i]), hn::Set(d, f.z[i])};
     if constexpr (kRotate) {
@@ -66,14 +74,12 @@ HWY_INLINE void FindTaps(const PointFrame& f, Receivers r, Vec3 n, Vec3 noise, i
       V kx, ky;
       r.Offset(ix, iy, &kx, &ky);
       if constexpr (kPlane) {
-        V q, slope;
-        r.Plane(kx, ky, &q, &slope);
-        const V level = hn::MulAdd(height, radius, hn::MulAdd(r.distance, q, grain));
-        hn::Store(level, d, block->level[v][i]);
-        hn::Store(slope, d, block->slope[v][i]);
+        const leaf::TexelPlane plane = leaf::plane_at(r, kx, ky);
+        hn::Store(leaf::level_above_plane(r, height, radius, plane.q), d, block->level[v][i]);
+        hn::Store(plane.slope, d, block->slope[v][i]);
       }
       if constexpr (kThickness) {
-        hn::Store(r.DepthOfThickness(kx, ky, f.thickness), d, block->behind[v][i]);
+        hn::Store(leaf::thickness_at(r, kx, ky, hn::Set(d, f.thickness)), d, block->behind[v][i]);
       }
     }
     if constexpr (kVaries && !kPlane) hn::Store(hn::Mul(s.z, radius), d, block->level[v][i]);
@@ -95,13 +101,12 @@ HWY_INLINE V SumTaps(const PointFrame& f, V z, int v,
     } else {
       level = hn::Set(d, f.z[i] * f.view.radius);
     }
-    // Whether a surface at this depth offset lies in front of the sample.
     auto in_front = [&](V at) HWY_ATTR {
       if constexpr (kPlane) {
         const V slope = hn::Load(d, block.slope[v][i]);
-        return hn::Lt(hn::Mul(hn::MulSub(at, slope, level), slope), zero);
+        return leaf::in_front_by_plane(at, slope, level);
       } else {
-        return hn::Lt(at, hn::Neg(level));
+        return leaf::in_front_by_depth(at, level);
       }
     };
     auto inside = in_front(offset);
@@ -145,8 +150,8 @@ void BallRow(const PointFrame& f, int row, int begin, int end, float* out) {
   f.view.normal_x ? rotate.template operator()<true>() : rotate.template operator()<false>();
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::point
+}  // namespace point::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -6,17 +6,20 @@
 // After foreach_target.
 #include "core/gather-inl.h"
 #include "hwy/highway.h"
-#include "math/fast-inl.h"
 #include "view/taps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace obscura::screen_pattern {
+namespace obscura {
 namespace HWY_NAMESPACE {
+namespace leaf {
+#include "screen/volumetric/point/screen_pattern_leaf.h"
+}  // namespace leaf
+}  // namespace HWY_NAMESPACE
+
+namespace screen_pattern::HWY_NAMESPACE {
 
 using namespace obscura::HWY_NAMESPACE::taps;
 namespace om = obscura::HWY_NAMESPACE;
-
-using om::leaf::kDepthGrain;
 
 template <bool kPlane, bool kDirections>
 void Pixels(const ScreenPatternFrame& f, int row, int width,
@@ -24,18 +27,16 @@ void Pixels(const ScreenPatternFrame& f, int row, int width,
   const D d;
   const RowLoader loader(f.view, row, width);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), round = hn::Set(d, kRound);
-  const V per_radius = hn::Set(d, 1 / f.view.radius), tiny = hn::Set(d, 1e-37f);
+  const V per_radius = hn::Set(d, 1 / f.view.radius);
   const float* HWY_RESTRICT base = Base(f.view);
   for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
     const V loaded = loader.Depth(i);
     const V z = hn::IfThenElse(hn::Lt(loaded, hn::Inf(d)), loaded, one);
     Receivers r(f.view, f.view.left + i, loader.y, z);
-    const V grain = hn::Mul(hn::Set(d, kDepthGrain), z);
     Vec3 n = {zero, zero, one};
     if constexpr (kPlane) {
       n = loader.Normal(i);
-      Vec3 facing = n;
-      r.SetNormal(&facing);
+      r.SetNormal(n);
     }
     Vec3 noise = {one, zero, zero};
     if (f.view.noise_x) noise = loader.Noise<false>(i);
@@ -49,37 +50,21 @@ void Pixels(const ScreenPatternFrame& f, int row, int width,
       r.Find(hn::MulAdd(r.reach_x, sx, round), hn::NegMulAdd(r.reach_y, sy, round), &ix, &iy);
       HWY_ALIGN std::int32_t index[kMaxLanes];
       hn::Store(r.Index(ix, iy), DI(), index);
-      V kx, ky, ta, tb;
+      V kx, ky;
       r.Offset(ix, iy, &kx, &ky);
-      r.Ray(kx, ky, &ta, &tb);
       // The background is far enough not to lie in any sphere.
       const V depth = om::GatherLanes(d, base, index);
       const V offset =
           hn::Sub(hn::IfThenElse(hn::Lt(depth, hn::Inf(d)), depth, hn::Set(d, 1e18f)), z);
-      // From the receiver to the surface point, P' - P = t r' - z r.
-      const V vx = hn::MulAdd(offset, ta, hn::Mul(r.distance, hn::Mul(kx, r.scale_x)));
-      const V vy = hn::MulSub(offset, tb, hn::Mul(r.distance, hn::Mul(ky, r.scale_y)));
-      const V square =
-          hn::Max(hn::MulAdd(vx, vx, hn::MulAdd(vy, vy, hn::Mul(offset, offset))), tiny);
-      const V inverse = om::FastInverseSqrt(d, square);
-      const V length = hn::Mul(hn::Mul(square, inverse), per_radius);
-      V height = hn::Neg(offset);
-      if constexpr (kPlane) {
-        V q, slope;
-        r.Plane(kx, ky, &q, &slope);
-        height = hn::MulSub(offset, slope, hn::Mul(r.distance, q));
-      }
-      const V near = hn::Sub(one, length);
-      const V rho = f.quadratic ? hn::Mul(near, near) : one;
-      const V bias = hn::MulAdd(hn::Set(d, kAngleGrain * f.view.radius), length, grain);
-      const auto occludes = hn::And(hn::Ge(near, zero), hn::Gt(height, bias));
-      const V share = hn::IfThenElseZero(occludes, hn::Mul(rho, hn::Set(d, f.weight[k])));
-      occupied = hn::Add(occupied, share);
+      const om::leaf::ScreenPoint point = om::leaf::screen_point(
+          r, kx, ky, offset, per_radius, hn::Set(d, kAngleGrain * f.view.radius),
+          hn::Set(d, f.weight[k]), f.quadratic, kPlane);
+      occupied = hn::Add(occupied, point.share);
       if constexpr (kDirections) {
-        const V each = hn::Mul(share, inverse);
-        lost.x = hn::MulAdd(each, vx, lost.x);
-        lost.y = hn::MulAdd(each, vy, lost.y);
-        lost.z = hn::NegMulAdd(each, offset, lost.z);
+        const V each = hn::Mul(point.share, point.inverse);
+        lost.x = hn::MulAdd(each, point.x, lost.x);
+        lost.y = hn::MulAdd(each, point.y, lost.y);
+        lost.z = hn::MulAdd(each, point.z, lost.z);
       }
     }
     hn::StoreU(hn::Sub(one, occupied), d, out[0] + i);
@@ -100,8 +85,8 @@ void Row(const ScreenPatternFrame& f, int row, int width,
                   : Pixels<false, false>(f, row, width, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace obscura::screen_pattern
+}  // namespace screen_pattern::HWY_NAMESPACE
+}  // namespace obscura
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,0 +1,92 @@
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h; after math/sectors_leaf.h and
+// math/horizon_leaf.h, in C++ within a class. The obscurance of one azimuthal slice whose matter
+// has an end: points may come in any number of separate pieces, and light passes between and below
+// them.
+
+// Directions between two edges, per unit of the obscurance between them: of the whole piece, or at
+// its middle where it is so thin that differences are noise.
+struct Between {
+  Real x, y, solid;
+};
+LEAF(Between)
+directions_between(LEAF_IN(Slice) s, LEAF_IN(SectorEdge) low, LEAF_IN(SectorEdge) high) {
+  Real mx = low.sine + high.sine, my = low.cosine + high.cosine;
+  Real length = leaf_inverse_sqrt(leaf_max(leaf_fma(mx, mx, my * my), real(1e-12f)));
+  mx = mx * length;
+  my = my * length;
+  Real scale = real(1.0f);
+  if (kSums == kSumUniform) {
+    Real lobe = leaf_fma(s.nz, my, s.nt * mx);
+    scale = leaf_reciprocal(leaf_max(lobe, real(0.05f)));
+  }
+  Real whole_x = along_tangent(s, high.sine, high.cosine, high.angle) -
+                 along_tangent(s, low.sine, low.cosine, low.angle);
+  Real whole_y = along_zenith(s, high.sine, high.cosine) - along_zenith(s, low.sine, low.cosine);
+  Real between = cosine_integral(s.nz, s.nt, high.sine, high.cosine, high.angle) -
+                 cosine_integral(s.nz, s.nt, low.sine, low.cosine, low.angle);
+  Truth thin = leaf_less(between, real(1e-3f));
+  Real inverse = leaf_reciprocal(leaf_max(between, real(kTiny)));
+  Between b;
+  b.x = leaf_select(thin, mx * scale, whole_x * inverse);
+  b.y = leaf_select(thin, my * scale, whole_y * inverse);
+  b.solid = leaf_select(thin, scale, (low.cosine - high.cosine) * inverse);
+  return b;
+}
+
+// rho of a line's matter at a share t of the chord between two directions.
+LEAF(Real)
+rho_between_edges(LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low, LEAF_IN(SectorEdge) high,
+                  Real t) {
+  Real wx = leaf_fma(t, high.sine - low.sine, low.sine);
+  Real wy = leaf_fma(t, high.cosine - low.cosine, low.cosine);
+  Real length = leaf_inverse_sqrt(leaf_max(leaf_fma(wx, wx, wy * wy), real(kTiny)));
+  return rho_of(distance_to_line(line, length * across_line(line, wx, wy)));
+}
+
+// Adds the next point outwards: matter on its view ray from depth `depth` to `back`, (bx, by) being
+// the place of its end. It fills what is between them, and where it touches the matter of the point
+// before (within `slack` of depth), what is between the two points. `dither` in [-0.5, 0.5) moves
+// the rounding of edges to sectors, so that many slices round without bias.
+LEAF(void)
+add_matter(LEAF_IN(Slice) s, Real x, Real y, Real bx, Real by, Real depth, Real back, Real slack,
+           Real dither, Truth valid, LEAF_INOUT(Sectors) m) {
+  SectorEdge front = find_sector(s, m, x, y);
+  SectorEdge low = front;  // nearest to the zenith
+  SectorEdge high = find_sector(s, m, bx, by);
+  Real gap = leaf_max(depth, m.depth) - leaf_min(back, m.back);
+  Truth joined = leaf_both(m.joined, leaf_less_equal(gap, slack));
+  low = select_sector_edge(leaf_both(joined, leaf_less(m.last.place, low.place)), m.last, low);
+  high = select_sector_edge(leaf_both(joined, leaf_less(high.place, m.last.place)), m.last, high);
+  Bits mine = leaf_bits_where(valid, leaf_except(leaf_bits_below(high.place + dither),
+                                                 leaf_bits_below(low.place + dither)));
+  Bits fresh = leaf_except(mine, m.covered);
+  if (leaf_any_bit(fresh)) {
+    Real count = leaf_count_bits(fresh);
+    Truth counts = leaf_less(real(0.0f), count);
+    // rho at two directions between the edges, a quarter and three quarters on.
+    MatterLine line = matter_line(s, m.x, m.y, x, y, joined);
+    Real mean = real(0.5f / kSectors) * (rho_between_edges(line, low, high, real(0.25f)) +
+                                         rho_between_edges(line, low, high, real(0.75f)));
+    Real piece = (count * m.span) * mean;
+    m.sum = m.sum + leaf_where(counts, piece);
+    if (kSums != kSumVisibility) {
+      // What reaches above all before is new above that only.
+      Truth above =
+          leaf_both(leaf_less(low.place, m.top.place), leaf_less(m.top.place, high.place));
+      Between w = directions_between(s, low, select_sector_edge(above, m.top, high));
+      m.sum_x = m.sum_x + leaf_where(counts, piece * w.x);
+      m.sum_y = m.sum_y + leaf_where(counts, piece * w.y);
+      m.sum_solid = m.sum_solid + leaf_where(counts, piece * w.solid);
+    }
+    m.covered = leaf_union(m.covered, fresh);
+  }
+  m.x = leaf_select(valid, x, m.x);
+  m.y = leaf_select(valid, y, m.y);
+  m.depth = leaf_select(valid, depth, m.depth);
+  m.back = leaf_select(valid, back, m.back);
+  m.last = select_sector_edge(valid, front, m.last);
+  if (kSums != kSumVisibility) {
+    m.top = select_sector_edge(leaf_both(valid, leaf_less(low.place, m.top.place)), low, m.top);
+  }
+  m.joined = valid;
+}

@@ -1,0 +1,68 @@
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h; after math/slice_leaf.h. No include guard, for
+// it is included once per SIMD target. The hemisphere of a slice is cut into 32 sectors of equal
+// cosine-weighted size, one bit each.
+const float kSectors = 32.0f;
+
+// A clipped direction and its place on the scale of sectors, 0 to 32.
+struct SectorEdge {
+  Real sine, cosine, angle, place;
+};
+LEAF(SectorEdge)
+select_sector_edge(Truth t, LEAF_IN(SectorEdge) yes, LEAF_IN(SectorEdge) no) {
+  SectorEdge e;
+  e.sine = leaf_select(t, yes.sine, no.sine);
+  e.cosine = leaf_select(t, yes.cosine, no.cosine);
+  e.angle = leaf_select(t, yes.angle, no.angle);
+  e.place = leaf_select(t, yes.place, no.place);
+  return e;
+}
+
+// What a slice's matter has covered so far (math/matter_leaf.h).
+struct Sectors {
+  Bits covered;
+  Real first, span;        // F where the hemisphere begins, and over it
+  Real x, y, depth, back;  // the point before: its place, and where its matter begins and ends
+  SectorEdge last;         // its direction
+  Truth joined;            // there is a point before
+  Real sum;
+  Real sum_x, sum_y, sum_solid;  // directions, see SliceSums
+  SectorEdge top;                // for them: nearest to the zenith so far
+};
+LEAF(Sectors) start_sectors(LEAF_IN(Slice) s, bool from_receiver, Real depth, Real back) {
+  Real zero = real(0.0f);
+  Edge end = hemisphere_end(s);
+  Sectors m;
+  m.covered = leaf_no_bits();
+  m.first = leaf_if_negative(s.nz, s.edge_integral, zero);
+  m.span = leaf_max(end.integral - m.first, real(1e-12f));
+  m.x = zero;
+  m.y = zero;
+  m.depth = depth;
+  m.back = back;
+  // What joins the receiver's own surface fills the slice down to its end.
+  m.last.sine = end.sine;
+  m.last.cosine = end.cosine;
+  m.last.angle = end.angle;
+  m.last.place = real(kSectors);
+  m.top = m.last;
+  m.joined = leaf_truth(from_receiver);
+  m.sum = zero;
+  m.sum_x = zero;
+  m.sum_y = zero;
+  m.sum_solid = zero;
+  return m;
+}
+
+LEAF(SectorEdge) find_sector(LEAF_IN(Slice) s, LEAF_IN(Sectors) m, Real x, Real y) {
+  Real one = real(1.0f);
+  Real inverse = leaf_inverse_sqrt(leaf_max(leaf_fma(x, x, y * y), real(kTiny)));
+  Real cosine = leaf_min(leaf_max(y * inverse, real(-1.0f)), one);
+  Edge edge = clip_to_hemisphere(s, x * inverse, cosine, fast_acos(cosine));
+  Real unit = (edge.integral - m.first) * leaf_reciprocal(m.span);
+  SectorEdge e;
+  e.sine = edge.sine;
+  e.cosine = edge.cosine;
+  e.angle = edge.angle;
+  e.place = real(kSectors) * leaf_min(leaf_max(unit, real(0.0f)), one);
+  return e;
+}

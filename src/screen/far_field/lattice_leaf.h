@@ -1,0 +1,47 @@
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h; after view/taps_leaf.h. No include guard, for
+// it is included once per SIMD target. What passes know of the depth image (plane.h).
+
+const float kSmallest = 1e-30f;
+const float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
+
+// Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
+// surface seen at a grazing angle.
+const float kJoinedPixels = 8.0f;
+LEAF(Real) slack_of_pixels(Real scale_u, Real scale_v) {
+  return real(kJoinedPixels) * leaf_max(scale_u, scale_v);
+}
+
+// What is interpolated between texels: 1/depth, or for parallel rays ortho_offset - depth; 0 on the
+// background.
+LEAF(Real) lattice_of_depth(Real depth, Real ortho_offset, bool parallel) {
+  Real value = parallel ? ortho_offset - depth : real(1.0f) / depth;
+  return leaf_where(leaf_less(depth, leaf_inf()), value);
+}
+LEAF(Real) depth_of_lattice(Real g, Real ortho_offset, bool parallel) {
+  return parallel ? ortho_offset - g : real(1.0f) / g;
+}
+// The same to the last bits but one.
+LEAF(Real) near_depth_of_lattice(Real g, Real ortho_offset, bool parallel) {
+  return parallel ? ortho_offset - g : leaf_reciprocal(g);
+}
+
+// The depth at which the matter of a texel ends whose ray is (a, b, 1): finite thickness is along
+// the view ray.
+LEAF(Real) back_of_thickness(Real depth, Real thickness, Real a, Real b, bool parallel) {
+  Real behind = parallel ? thickness : depth_of_thickness(thickness, a, b);
+  return leaf_min(depth + behind, real(kFarBack));
+}
+
+// Between texel values a and b.
+LEAF(Real) blended(Real a, Real b, Real blend) { return leaf_fma(blend, b - a, a); }
+
+// Whether two pieces of matter, from `front` to `back`, touch: `slack` is a share of the nearer.
+LEAF(Truth) matter_touches(Real front_a, Real back_a, Real front_b, Real back_b, Real slack) {
+  Real gap = leaf_max(front_a, front_b) - leaf_min(back_a, back_b);
+  return leaf_less_equal(gap, slack * leaf_min(front_a, front_b));
+}
+
+// The two receiver lines meet where z = m0 and slope x = m1 - m0: the outward coordinate there.
+LEAF(Real) outward_of(Real slope, Real nearest, Real slanted) {
+  return slope * (slanted + nearest);
+}

@@ -4,6 +4,7 @@
 
 #include "fmt/format.h"
 #include "io/report/progress_bar.h"
+#include "obscura/simd.h"
 #include "reproduce/reproduce.h"
 
 namespace obscura::tools {
@@ -24,6 +25,7 @@ std::string reproduction_names() {
 }
 
 Status run(const Arguments& a) {
+  if (Status s = limit_simd_from_environment(); !s.ok()) return s;
   const auto& all = reproductions();
   const auto r = std::ranges::find_if(all, [&](const Reproduction& r) { return a.name == r.name; });
   if (r == all.end()) {

@@ -9,13 +9,14 @@
 #include "fmt/format.h"
 #include "io/images/describe.h"
 #include "io/images/files.h"
+#include "obscura/simd.h"
 
 namespace obscura::app {
 namespace {
 
 struct InfoCommand {
   std::string path, json;
-  bool devices = false;
+  bool devices = false, simd = false;
   VolumeInputOptions volume;
 };
 
@@ -36,10 +37,16 @@ Status run_volume_info(const InfoCommand& c) {
   return write_json(report, c.json);
 }
 
+Status print_simd() {
+  for (const std::string& target : simd_targets()) fmt::print("{}\n", target);
+  return {};
+}
+
 Status run_info(const InfoCommand& c) {
   tools::Json description;
   if (c.devices) return print_devices();
-  if (c.path.empty()) return invalid_argument("FILE is missing; or say --devices");
+  if (c.simd) return print_simd();
+  if (c.path.empty()) return invalid_argument("FILE is missing; or say --devices or --simd");
   if (tools::is_volume(c.path)) return run_volume_info(c);
   if (Status s = tools::describe_image(c.path, &description); !s.ok()) return s;
   if (c.json != "-") std::fputs(tools::description_text(description).c_str(), stdout);
@@ -68,6 +75,9 @@ void add_info(App& app) {
                    "Image: EXR, PFM, PNG or HDR; volume: .nii, .nii.gz, .nrrd, .nhdr, .vdb, .raw")
       ->type_name("");
   command->add_flag("--devices", c->devices, "List the machine's Vulkan devices instead");
+  command->add_flag("--simd", c->simd,
+                    "List the SIMD targets that kernels can run with here, slowest first; the "
+                    "environment variable OBSCURA_SIMD limits them to one of these");
   c->volume.add_to(command);
   command->add_option("--json", c->json, "Write it as JSON; - is standard output")
       ->type_name("FILE");

@@ -75,6 +75,9 @@ Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* i
   const Status s = scene ? tools::load_scene(path_, options.view, *executor, rendering)
                          : tools::load_mesh(path_, options, *executor, rendering);
   if (!s.ok()) return s;
+  for (const std::string& note : rendering->scene->mesh().notes) {
+    fmt::print(stderr, "obscura: note: {}\n", note);
+  }
   tools::DepthInput& gbuffer = rendering->gbuffer;
   gbuffer.name = path_;
   if (use == "none") input->normal_use = NormalUse::kNone;

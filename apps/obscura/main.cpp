@@ -7,6 +7,7 @@
 #include "fmt/format.h"
 #include "io/images/exr.h"
 #include "io/report/progress_bar.h"
+#include "obscura/simd.h"
 #include "obscura/version.h"
 
 namespace obscura::app {
@@ -70,6 +71,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return fail(e.what(), kBadUsage);
   }
+  if (Status s = limit_simd_from_environment(); !s.ok()) return fail(s.message(), kBadUsage);
   tools::catch_interrupts();
   const Status status = app.action();
   return status.ok() ? kDone : fail(status.message(), exit_code(status));

@@ -23,6 +23,8 @@ struct EnumNames<FalloffKind> {
   // What a command line can say; the other two kinds exist in C++ only.
   static constexpr const char* names[] = {"constant", "exponential", "quadratic", "inverse-square"};
 };
+template <>
+inline constexpr int kEnumCount<FalloffKind> = 6;
 
 struct Falloff {
   FalloffKind kind = FalloffKind::kExponential;

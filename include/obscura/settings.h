@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
@@ -66,6 +67,13 @@ struct EnumNames;  // static constexpr const char* names[]
 template <class E>
 std::span<const char* const> enum_names() {
   return EnumNames<E>::names;
+}
+// How many values an enumeration has, where more than text can name.
+template <class E>
+inline constexpr int kEnumCount = static_cast<int>(std::size(EnumNames<E>::names));
+template <class E>
+bool is_valid_enum(E value) {
+  return static_cast<int>(value) >= 0 && static_cast<int>(value) < kEnumCount<E>;
 }
 template <class E>
 const char* enum_name(E value) {
@@ -162,7 +170,14 @@ std::string write_setting(const T& value) {
   }
 }
 
-// Checks every number of a settings struct against its range.
+// The sentence for an enumeration's value that does not exist.
+template <class E>
+Status no_such_value(const char* name, E value) {
+  return invalid_argument(std::string(name) + " is " + std::to_string(static_cast<int>(value)) +
+                          "; it must be " + one_of(enum_names<E>()));
+}
+
+// Checks every number of a settings struct against its range, and every enumeration.
 template <class Settings>
 Status validate_ranges(const Settings& settings) {
   Status status;
@@ -172,6 +187,8 @@ Status validate_ranges(const Settings& settings) {
       if (status.ok() && !field.range.contains(static_cast<double>(value))) {
         status = out_of_range(field, static_cast<double>(value));
       }
+    } else if constexpr (std::is_enum_v<T>) {
+      if (status.ok() && !is_valid_enum(value)) status = no_such_value(field.name, value);
     }
   });
   return status;

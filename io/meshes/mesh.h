@@ -2,13 +2,14 @@
 #define OBSCURA_IO_MESHES_MESH_H_
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "io/meshes/vec3.h"
 
 namespace obscura::tools {
 
-// World geometry, y up unless a file says otherwise: triangles in parts, and exact spheres.
+// Geometry, y up unless a file says otherwise: triangles in parts, and exact spheres.
 struct Mesh {
   struct Point {
     float x = 0, y = 0, z = 0;
@@ -35,6 +36,11 @@ struct Mesh {
   std::vector<Part> parts;  // cover all triangles in order
   std::vector<Sphere> spheres;
   double scene_size = 0;  // S: longest side of the bounding box, without an added ground
+  // World position of the point that positions are relative to: floats keep their detail where the
+  // world's coordinates are large (map projections, earth-centred frames).
+  Vec3 origin;
+  // What the user should know of the file, a sentence each.
+  std::vector<std::string> notes;
 
   Vec3 position(std::uint32_t index) const {
     const Point& p = positions[index];

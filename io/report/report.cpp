@@ -7,6 +7,7 @@
 
 #include "fmt/format.h"
 #include "obscura/executor.h"
+#include "obscura/simd.h"
 #include "obscura/version.h"
 
 namespace obscura::tools {
@@ -79,6 +80,8 @@ Json describe_machine() {
   return {{"processor", processor_name()},
           {"threads", make_executor()->thread_count()},
           {"simd", simd_target()},
+          {"simd_targets", simd_targets()},
+          {"simd_limit", simd_limit()},
           {"compiler", compiler()},
           {"obscura", version()}};
 }

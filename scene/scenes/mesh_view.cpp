@@ -65,8 +65,13 @@ Status load_and_render(const std::string& path, const MeshOptions& options, Exec
   Mesh mesh;
   if (Status s = load_mesh(path, &mesh); !s.ok()) return s;
   const Bounds bounds = bounds_of(mesh);
-  ViewSpec view = framed_view(bounds, options.view);
-  if (Status s = apply_options(options.view, &view); !s.ok()) return s;
+  // The user speaks of the world; mesh and view are kept relative to the mesh's origin.
+  ViewOptions local = options.view;
+  if (local.eye) *local.eye = *local.eye - mesh.origin;
+  if (local.look_at) *local.look_at = *local.look_at - mesh.origin;
+  ViewSpec view = framed_view(bounds, local);
+  view.origin = mesh.origin;
+  if (Status s = apply_options(local, &view); !s.ok()) return s;
   if (!options.sheets) find_solids(&mesh);
   if (options.ground) add_ground(normalize(view.up), bounds, &mesh);
   std::unique_ptr<RayScene> scene;

@@ -96,7 +96,15 @@ class Tracer {
         s_(settings),
         rho_(settings.falloff),
         hemisphere_(settings.rays),
-        offset_(settings.offset > 0 ? settings.offset : 1e-5 * g_.scene_size) {}
+        offset_(settings.offset > 0 ? settings.offset : 1e-5 * g_.scene_size),
+        chosen_(settings.offset > 0) {}
+
+  // At least a few steps of the floats in which Embree holds coordinates and images hold depths.
+  double offset(Vec3 surface, double depth) const {
+    const double largest =
+        std::max({std::abs(surface.x), std::abs(surface.y), std::abs(surface.z), depth});
+    return chosen_ ? offset_ : std::max(offset_, 4 * 0x1p-24 * largest);
+  }
 
   Vec3 normal(std::size_t i) const { return {g_.normal_x[i], g_.normal_y[i], g_.normal_z[i]}; }
 
@@ -110,7 +118,8 @@ class Tracer {
     const Frame around = Frame::around(normal(i));
     const Frame world{frame_.to_world(around.x), frame_.to_world(around.y),
                       frame_.to_world(around.z)};
-    const Vec3 origin = eye_ + frame_.to_world(point) + world.z * offset_;
+    const Vec3 surface = eye_ + frame_.to_world(point);
+    const Vec3 origin = surface + world.z * offset(surface, depth);
     Random random((std::uint64_t(s_.seed) << 33) ^ (std::uint64_t(i) << 1) ^ (cosine ? 1 : 0));
     const int count = hemisphere_.count();
     Vec3 sum;
@@ -154,6 +163,7 @@ class Tracer {
   const Rho rho_;
   const Hemisphere hemisphere_;
   const double offset_;
+  const bool chosen_;  // by the user
 };
 
 void set(const ImageView<float>& view, int x, int y, double value) {

@@ -12,7 +12,7 @@ using Matrix = ExrHeader::Matrix;
 // Row vectors, p' = p M; camera space is left-handed with z forward.
 Matrix world_to_camera(const ViewSpec& view) {
   const Frame f = view.frame();
-  const Vec3 e = view.eye;
+  const Vec3 e = view.eye + view.origin;
   return {f.x.x, f.y.x, -f.z.x, 0, f.x.y,        f.y.y,        -f.z.y,      0,
           f.x.z, f.y.z, -f.z.z, 0, -dot(f.x, e), -dot(f.y, e), dot(f.z, e), 1};
 }

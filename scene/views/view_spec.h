@@ -14,6 +14,7 @@ struct ViewSpec {
   int width = 640, height = 360;  // the visible part
   GuardBand guard_band{64, 64, 36, 36};
   Vec3 eye{0, 0, 1}, look_at{}, up{0, 1, 0};
+  Vec3 origin;  // world position that eye and look_at are relative to (Mesh::origin)
   bool orthographic = false;
   double fov_y = std::numbers::pi / 3;  // radians, (0, pi), of the visible part
   double ortho_height = 1;              // world units, of the visible part

@@ -1,6 +1,7 @@
 // Plain threads, for ThreadSanitizer: it reports false races inside Debian's TBB.
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,12 @@ class StdExecutor final : public Executor {
       for (int i = next++; i < count; i = next++) body(i, worker);
     };
     std::vector<std::thread> others;
-    for (int w = 1; w < std::min(threads_, count); ++w) others.emplace_back(work, w);
+    try {
+      others.reserve(static_cast<std::size_t>(threads_));
+      for (int w = 1; w < std::min(threads_, count); ++w) others.emplace_back(work, w);
+    } catch (const std::exception&) {
+      // The system gives no more threads: those that there are do the work.
+    }
     work(0);
     for (std::thread& t : others) t.join();
   }

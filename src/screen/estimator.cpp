@@ -1,5 +1,6 @@
 #include "obscura/estimator.h"
 
+#include <atomic>
 #include <cmath>
 #include <new>
 
@@ -108,6 +109,22 @@ class EstimatorImpl {
       : method_(std::move(method)), width_(width), height_(height) {}
 
   Status run(const DepthField& field, const Outputs& outputs, const RunOptions& options) {
+    if (running_.exchange(true)) {
+      return invalid_argument(
+          "this estimator is running already; two runs at once need two objects");
+    }
+    const Running running{&running_};
+    return run_alone(field, outputs, options);
+  }
+
+ private:
+  // Says that the run has ended, however it ends.
+  struct Running {
+    std::atomic<bool>* flag;
+    ~Running() { flag->store(false); }
+  };
+
+  Status run_alone(const DepthField& field, const Outputs& outputs, const RunOptions& options) {
     if (field.depth.width != width_ || field.depth.height != height_) {
       return invalid_input(text("depth is ", field.depth.width, "x", field.depth.height,
                                 "; this estimator was created for ", width_, "x", height_));
@@ -129,7 +146,7 @@ class EstimatorImpl {
     return {};
   }
 
- private:
+  std::atomic<bool> running_ = false;
   std::unique_ptr<Method> method_;
   const int width_, height_;
   RunThreads threads_;
@@ -143,6 +160,7 @@ Estimator& Estimator::operator=(Estimator&&) noexcept = default;
 
 Status Estimator::create(const MethodSettings& settings, int width, int height,
                          Estimator* estimator) {
+  if (!estimator) return invalid_argument("estimator is null; it must point to an Estimator");
   if (width < 1 || height < 1 || width > 65535 || height > 65535) {
     return invalid_argument(
         text("image size is ", width, "x", height, "; each side must be in [1, 65535]"));

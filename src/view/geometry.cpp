@@ -42,6 +42,11 @@ Status check(const DepthField& field, const Needs& needs) {
                               ", bottom ", g.bottom, ") leaves nothing visible of a ", w, "x", h,
                               " depth image"));
   }
+  if (!is_valid_enum(field.depth_kind)) return no_such_value("depth_kind", field.depth_kind);
+  if (field.normal_use != NormalUse::kAuto && field.normal_use != NormalUse::kNone) {
+    return invalid_argument(text("normal_use is ", static_cast<int>(field.normal_use),
+                                 "; it must be 0 (auto) or 1 (none)"));
+  }
   if (Status s = check_view(field.camera, field.depth_kind, field.near_plane, field.far_plane);
       !s.ok()) {
     return s;

@@ -35,6 +35,21 @@ TEST_F(CommandTest, SceneGBufferAndFileGiveTheSamePicture) {
   EXPECT_GT(c.correlation, 0.9999);
 }
 
+TEST_F(CommandTest, SimdTargetsAreListedLimitedAndReported) {
+  const CommandResult all = run("info --simd");
+  ASSERT_EQ(all.code, 0) << all.err;
+  const std::string slowest = all.out.substr(0, all.out.find('\n'));
+  const CommandResult limited =
+      run("ao 'scene:bowl?size=32x18' --method line -o v.pfm --json -", "OBSCURA_SIMD=" + slowest);
+  ASSERT_EQ(limited.code, 0) << limited.err;
+  const auto machine = nlohmann::json::parse(limited.out)["machine"];
+  EXPECT_EQ(machine["simd_limit"], slowest);
+  EXPECT_EQ(machine["simd_targets"][0], slowest);
+  expect_failure("info --simd", 2,
+                 "the SIMD target is 'abacus'; this processor and build have " + slowest,
+                 "OBSCURA_SIMD=abacus");
+}
+
 TEST_F(CommandTest, BackDepthAndLayersPassThroughAFile) {
   expect_success("gbuffer 'scene:tower?size=64x36&layers=2&back-depth=1' -o g.exr");
   for (const std::string occluder : {"back-depth", "layers:2"}) {

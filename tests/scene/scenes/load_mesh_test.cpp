@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "scene/rays/solids.h"
+#include "scene/truth/geometric.h"
 
 namespace obscura::tools {
 namespace {
@@ -125,11 +126,11 @@ TEST_F(LoadMesh, HostileFilesAreRefusedInOneSentence) {
   refuse(write("mesh.stl", "solid"), "not a mesh by its ending; meshes are .obj, .ply");
   refuse(write("mesh.gz", "solid"), "not a mesh by its ending");
   refuse(write("empty.ply", ""), "is empty");
-  refuse(write("text.ply", "this is no mesh at all\n"), "");
-  refuse(write("cube.ply", kCube), "");  // wrong ending
-  refuse(write("image.glb", "\x89PNG\r\n\x1a\n0000000000000000"), "");
-  refuse(write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "");
-  refuse(write("points.ply", ply(triangle, 3, "", 0)), "");
+  refuse(write("text.ply", "this is no mesh at all\n"), "does not begin with 'ply'");
+  refuse(write("cube.ply", kCube), "does not begin with 'ply'");  // wrong ending
+  refuse(write("image.glb", "\x89PNG\r\n\x1a\n0000000000000000"), "is not JSON");
+  refuse(write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "holds no triangles");
+  refuse(write("points.ply", ply(triangle, 3, "", 0)), "holds no triangles");
   refuse(write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n"), "no triangles");
   refuse(write("nan.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n"), "must be finite");
   refuse(write("inf.ply", ply("0 0 0\n1 0 0\n0 inf 0\n", 3, "3 0 1 2\n", 1)), "must be finite");
@@ -137,9 +138,9 @@ TEST_F(LoadMesh, HostileFilesAreRefusedInOneSentence) {
          "must be finite");
   refuse(write("far.ply", ply("0 0 0\n1e30 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), "within 1e11");
   refuse(write("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "in one point");
-  refuse(write("index.ply", ply(triangle, 3, "3 0 1 7\n", 1)), "");
-  refuse(write("negative.ply", ply(triangle, 3, "3 0 1 -2\n", 1)), "");
-  refuse(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "");
+  refuse(write("index.ply", ply(triangle, 3, "3 0 1 7\n", 1)), "names vertex 7 of 3");
+  refuse(write("negative.ply", ply(triangle, 3, "3 0 1 -2\n", 1)), "names vertex -2 of 3");
+  refuse(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "line 4 names vertex 9 of 3");
   refuse(write_zipped("cut.obj.gz", kCube, 9), "corrupt or cut short");
   refuse(write("plain.obj.gz", kCube), "corrupt or cut short");
   refuse(write_zipped("empty.obj.gz", ""), "is empty");
@@ -166,7 +167,8 @@ TEST_F(LoadMesh, TruncatedBinaryPly) {
   ASSERT_TRUE(load_mesh(write("whole.ply", header + body), &mesh).ok());
   EXPECT_EQ(mesh.triangles.size(), 100u);
   for (double share : {0.1, 0.5, 0.8, 0.95}) {
-    refuse(write("cut.ply", header + body.substr(0, std::size_t(share * double(body.size())))), "");
+    refuse(write("cut.ply", header + body.substr(0, std::size_t(share * double(body.size())))),
+           "cut short");
   }
 }
 
@@ -293,6 +295,49 @@ TEST_F(LoadMesh, PosesThatCannotBeAreRefused) {
   inside.sheets = true;
   Rendering r;
   EXPECT_TRUE(load_mesh(path, inside, *make_executor(), &r).ok());
+}
+
+// A block on a floor, seen from the same side wherever in the world it stands: the truth of its
+// geometry does not depend on where that is. Coordinates of a map projection and of the earth's
+// centre are where floats have steps of half a metre.
+TEST_F(LoadMesh, TheTruthIsTheSameFarFromTheOrigin) {
+  auto visibility = [&](Vec3 at) {
+    std::string text;
+    const double corners[][3] = {{-4, 0, -4}, {-4, 0, 4}, {4, 0, 4},  {4, 0, -4},
+                                 {-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1},
+                                 {-1, 0, 1},  {1, 0, 1},  {1, 2, 1},  {-1, 2, 1}};
+    for (const auto& c : corners) {
+      char line[128];
+      std::snprintf(line, sizeof line, "v %.6f %.6f %.6f\n", c[0] + at.x, c[1] + at.y, c[2] + at.z);
+      text += line;
+    }
+    text +=
+        "f 1 2 3 4\nf 5 8 7 6\nf 9 10 11 12\nf 5 6 10 9\nf 7 8 12 11\nf 6 7 11 10\nf 8 5 9 12\n";
+    MeshOptions options;
+    options.view.size = {48, 27};
+    options.view.guard_band = {false, 0, 0};
+    options.view.eye = at + Vec3{4, 4, 6};
+    options.view.look_at = at;
+    options.view.fov_y = 50;
+    Rendering r;
+    const Status status = load_mesh(write("block.obj", text), options, *make_executor(), &r);
+    EXPECT_TRUE(status.ok()) << status.message();
+    std::vector<float> visible(48 * 27);
+    GeometricSettings settings;
+    settings.rays = 64;
+    EXPECT_TRUE(trace_geometric(r, settings, {.visibility = {visible.data(), 48, 27}}).ok());
+    return visible;
+  };
+  const std::vector<float> here = visibility({0, 0, 0});
+  EXPECT_LT(*std::min_element(here.begin(), here.end()), 0.7f);
+  for (const Vec3 at : {Vec3{1e4, 1e4, 1e4}, Vec3{448123, 0, 5411987}, Vec3{4.2e6, 1.7e5, 4.8e6}}) {
+    const std::vector<float> there = visibility(at);
+    double difference = 0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      difference += std::abs(double(here[i]) - there[i]) / double(here.size());
+    }
+    EXPECT_LT(difference, 2e-3) << at.x;
+  }
 }
 
 TEST_F(LoadMesh, SharedMeshes) {

@@ -127,8 +127,7 @@ Status HeadlessVulkan::run(const DepthField& field, const MethodSettings& settin
     vkCmdResetQueryPool(device.commands(), device.queries(), 0, VulkanDevice::kQueries);
     const auto start = std::chrono::steady_clock::now();
     const Status status = recorder.record(
-        device.commands(), 0,
-        {field.camera, field.near_plane, field.far_plane, frame.frame_index},
+        device.commands(), 0, {field.camera, field.near_plane, field.far_plane, frame.frame_index},
         {.timestamps = device.queries(), .first_query = 0});
     const std::chrono::duration<double, std::micro> recorded =
         std::chrono::steady_clock::now() - start;

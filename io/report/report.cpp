@@ -77,12 +77,9 @@ std::string Report::to_markdown() const {
 }
 
 Json describe_machine() {
-  return {{"processor", processor_name()},
-          {"threads", make_executor()->thread_count()},
-          {"simd", simd_target()},
-          {"simd_targets", simd_targets()},
-          {"simd_limit", simd_limit()},
-          {"compiler", compiler()},
+  return {{"processor", processor_name()}, {"threads", make_executor()->thread_count()},
+          {"simd", simd_target()},         {"simd_targets", simd_targets()},
+          {"simd_limit", simd_limit()},    {"compiler", compiler()},
           {"obscura", version()}};
 }
 

@@ -69,17 +69,19 @@ Status validate(const ViewSpec& v) {
     return invalid_argument("up is " + to_text(v.up) + "; it must be finite and not zero");
   }
   if (length(v.eye) > kFarthest || length(v.look_at) > kFarthest) {
-    return invalid_argument("eye is " + to_text(v.eye + v.origin) + " and look-at " + to_text(v.look_at + v.origin) +
+    return invalid_argument("eye is " + to_text(v.eye + v.origin) + " and look-at " +
+                            to_text(v.look_at + v.origin) +
                             "; both must be within 1e12 of the origin");
   }
   const Vec3 sight = v.look_at - v.eye;
   if (!(length(sight) > 0)) {
-    return invalid_argument("eye and look-at are both " + to_text(v.eye + v.origin) + "; they must differ");
+    return invalid_argument("eye and look-at are both " + to_text(v.eye + v.origin) +
+                            "; they must differ");
   }
   if (!(length(cross(normalize(sight), normalize(v.up))) > 1e-6)) {
-    return invalid_argument("the line of sight from eye " + to_text(v.eye + v.origin) + " to look-at " +
-                            to_text(v.look_at + v.origin) + " is along up " + to_text(v.up) +
-                            "; give another up");
+    return invalid_argument("the line of sight from eye " + to_text(v.eye + v.origin) +
+                            " to look-at " + to_text(v.look_at + v.origin) + " is along up " +
+                            to_text(v.up) + "; give another up");
   }
   constexpr double kDegree = std::numbers::pi / 180;
   if (!v.orthographic && !(v.fov_y > 0.0099 * kDegree && v.fov_y < 179.91 * kDegree)) {

@@ -102,8 +102,7 @@ TEST(ModelsOfMatter, InTheScenes) {
 }
 
 TEST(ModelsOfMatter, OfTheBunny) {
-  const std::string path =
-      OBSCURA_SOURCE_DIR "/../shared/data/meshes/stanford-bunny.obj";
+  const std::string path = OBSCURA_SOURCE_DIR "/../shared/data/meshes/stanford-bunny.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the bunny is not there: " << path;
   Rendering r;
   tools::MeshOptions options;

@@ -56,7 +56,7 @@ Status MeshBuilder::check_extent(const Bounds& bounds) const {
   }
   const double reach = largest_coordinate(bounds);
   if (reach <= kLargestCoordinate) return {};
-  return invalid_input(fmt::format("{}: reaches {:g} from the origin; it must be within {:g}",
+  return invalid_input(fmt::format("{}: reaches {:g} from the origin; it must be within 1e11",
                                    path_, reach, kLargestCoordinate));
 }
 

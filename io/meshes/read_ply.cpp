@@ -26,7 +26,7 @@ class AsciiValues {
   // The fewest bytes that so many values of a list take, beside what follows.
   static std::uint64_t least_bytes(PlyType, std::uint64_t count) { return 2 * count; }
   std::string failure() const {
-    return word_.empty() ? "ends early" : fmt::format("has '{}' for a number", printable(word_));
+    return word_.empty() ? "is cut short" : fmt::format("has '{}' for a number", printable(word_));
   }
 
  private:
@@ -58,7 +58,7 @@ class BinaryValues {
   static std::uint64_t least_bytes(PlyType type, std::uint64_t count) {
     return count * std::uint64_t(kPlyBytes[int(type)]);
   }
-  static std::string failure() { return "ends early"; }
+  static std::string failure() { return "is cut short"; }
 
  private:
   double at(const char* p, PlyType type) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/check_sphere.h"
+#include "core/guarded.h"
 #include "core/progress.h"
 #include "core/random.h"
 #include "core/run_threads.h"
@@ -221,57 +222,61 @@ Status check(const DepthField& field, const Environment& environment,
 Status light_by_importance(const DepthField& field, const Environment& environment,
                            const ImportanceSettings& settings, const VectorView<float>& out,
                            const RunOptions& options) {
-  if (Status s = check(field, environment, settings, out); !s.ok()) return s;
-  const RunThreads threads(options);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  view::Geometry g;
-  if (Status s = view::convert(field, {.normals = true}, executor, &g); !s.ok()) return s;
-  const std::vector<LightSample> samples = make_samples(environment, settings);
-  const Marcher marcher(g, settings);
-  const int width = g.visible().width, height = g.visible().height, m = settings.interleave;
-  Progress progress(height, options.progress);
-  executor.parallel_for(height, [&](int row, int) {
-    if (progress.cancelled()) return;
-    for (int column = 0; column < width; ++column) {
-      const int x = column + g.guard_band.left, y = row + g.guard_band.top;
-      float sum[3] = {};
-      const int cell = row % m * m + column % m;
-      if (std::isfinite(g.depth(x, y))) {
-        const Vec p = marcher.surface(x, y),
-                  n{g.normal_x(x, y), g.normal_y(x, y), g.normal_z(x, y)};
-        for (int s = 0; s < settings.samples; ++s) {
-          const LightSample& sample =
-              samples[static_cast<std::size_t>(cell) * settings.samples + s];
-          const float cosine = dot(n, sample.w);
-          if (!(cosine > 0)) continue;
-          // Offsets differ between the pattern's pixels and between samples; none is 0.
-          const double spread = (cell + 0.5) / (m * m) + s * std::numbers::phi;
-          const float offset = static_cast<float>(spread - std::floor(spread));
-          const float lit = cosine * marcher.visibility(p, n, sample.w, offset);
-          for (int k = 0; k < 3; ++k) sum[k] += lit * sample.light[k];
+  return guarded("lighting by importance", [&]() -> Status {
+    if (Status s = check(field, environment, settings, out); !s.ok()) return s;
+    const RunThreads threads(options);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    view::Geometry g;
+    if (Status s = view::convert(field, {.normals = true}, executor, &g); !s.ok()) return s;
+    const std::vector<LightSample> samples = make_samples(environment, settings);
+    const Marcher marcher(g, settings);
+    const int width = g.visible().width, height = g.visible().height, m = settings.interleave;
+    BilateralFilter filter;  // before anything is written to the outputs: it allocates
+    if (settings.blur) {
+      filter.resize(width, height);
+      filter.set_size(width, height);
+    }
+    Progress progress(height, options.progress);
+    executor.parallel_for(height, [&](int row, int) {
+      if (progress.cancelled()) return;
+      for (int column = 0; column < width; ++column) {
+        const int x = column + g.guard_band.left, y = row + g.guard_band.top;
+        float sum[3] = {};
+        const int cell = row % m * m + column % m;
+        if (std::isfinite(g.depth(x, y))) {
+          const Vec p = marcher.surface(x, y),
+                    n{g.normal_x(x, y), g.normal_y(x, y), g.normal_z(x, y)};
+          for (int s = 0; s < settings.samples; ++s) {
+            const LightSample& sample =
+                samples[static_cast<std::size_t>(cell) * settings.samples + s];
+            const float cosine = dot(n, sample.w);
+            if (!(cosine > 0)) continue;
+            // Offsets differ between the pattern's pixels and between samples; none is 0.
+            const double spread = (cell + 0.5) / (m * m) + s * std::numbers::phi;
+            const float offset = static_cast<float>(spread - std::floor(spread));
+            const float lit = cosine * marcher.visibility(p, n, sample.w, offset);
+            for (int k = 0; k < 3; ++k) sum[k] += lit * sample.light[k];
+          }
         }
+        const float scale = 1 / static_cast<float>(settings.samples);
+        out.x(column, row) = sum[0] * scale;
+        out.y(column, row) = sum[1] * scale;
+        out.z(column, row) = sum[2] * scale;
       }
-      const float scale = 1 / static_cast<float>(settings.samples);
-      out.x(column, row) = sum[0] * scale;
-      out.y(column, row) = sum[1] * scale;
-      out.z(column, row) = sum[2] * scale;
+      progress.advance();
+    });
+    if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
+    if (!settings.blur) return {};
+    for (const auto* view : {&out.x, &out.y, &out.z}) {
+      const ImageView<float> input = filter.input();
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) input(x, y) = (*view)(x, y);
+      }
+      filter.run(g, settings.falloff.radius, executor, *view);
     }
-    progress.advance();
+    return {};
   });
-  if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
-  if (!settings.blur) return {};
-  BilateralFilter filter;
-  filter.resize(width, height);
-  filter.set_size(width, height);
-  for (const auto* view : {&out.x, &out.y, &out.z}) {
-    const ImageView<float> input = filter.input();
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) input(x, y) = (*view)(x, y);
-    }
-    filter.run(g, settings.falloff.radius, executor, *view);
-  }
-  return {};
 }
 
 }  // namespace obscura

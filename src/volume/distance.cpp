@@ -2,6 +2,7 @@
 #include <limits>
 #include <new>
 
+#include "core/guarded.h"
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
@@ -76,33 +77,32 @@ Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridVie
 
 Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings,
                       GridView<float> distance, const RunOptions& run, DistanceReport* report) {
-  if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = validate(volume); !s.ok()) return s;
-  if (Status s = validate_grid("distance", distance.data, distance.size, volume.spacing); !s.ok()) {
-    return s;
-  }
-  if (distance.size != volume.size) {
-    return invalid_input(text("distance.size is ", distance.size[0], "x", distance.size[1], "x",
-                              distance.size[2], "; it must be the volume's, ", volume.size[0], "x",
-                              volume.size[1], "x", volume.size[2]));
-  }
-  const RunThreads threads(run);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  VolumeRange range;
-  RunOptions unseen;  // the range is quick and reports no progress
-  unseen.executor = &executor;
-  if (Status s = volume_range(volume, &range, unseen); !s.ok()) return s;
-  if (!cuts(settings, range)) {
-    return invalid_argument(text("isovalue is ", settings.isovalue,
-                                 ", which does not cut the volume; its values go from ", range.min,
-                                 " to ", range.max));
-  }
-  try {
+  return guarded("the distance sweep; use a smaller volume", [&]() -> Status {
+    if (Status s = validate_ranges(settings); !s.ok()) return s;
+    if (Status s = validate(volume); !s.ok()) return s;
+    if (Status s = validate_grid("distance", distance.data, distance.size, volume.spacing);
+        !s.ok()) {
+      return s;
+    }
+    if (distance.size != volume.size) {
+      return invalid_input(text("distance.size is ", distance.size[0], "x", distance.size[1], "x",
+                                distance.size[2], "; it must be the volume's, ", volume.size[0],
+                                "x", volume.size[1], "x", volume.size[2]));
+    }
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    VolumeRange range;
+    RunOptions unseen;  // the range is quick and reports no progress
+    unseen.executor = &executor;
+    if (Status s = volume_range(volume, &range, unseen); !s.ok()) return s;
+    if (!cuts(settings, range)) {
+      return invalid_argument(text("isovalue is ", settings.isovalue,
+                                   ", which does not cut the volume; its values go from ",
+                                   range.min, " to ", range.max));
+    }
     return sweep(volume, settings, distance, executor, run, report);
-  } catch (const std::bad_alloc&) {
-    return {StatusCode::kOutOfMemory, "out of memory in the distance sweep; use a smaller volume"};
-  }
+  });
 }
 
 }  // namespace obscura

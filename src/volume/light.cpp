@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/guarded.h"
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
@@ -73,50 +74,52 @@ float gather(const VisibilityFieldImpl& f, const LightSettings& light, const Sur
 
 Status VisibilityField::light(std::span<const SurfacePoint> points, const LightSettings& settings,
                               std::span<float> visibility, const RunOptions& run) const {
-  if (empty()) return invalid_input("the visibility field is empty; sweep it first");
-  if (settings.octants == 0 || settings.octants > kAllOctants) {
-    return invalid_argument(text("octants is ", settings.octants, "; it must be in [1, 255]"));
-  }
-  if (visibility.size() != points.size()) {
-    return invalid_input(text("visibility holds ", visibility.size(), " values; it must hold ",
-                              points.size(), ", one per point"));
-  }
-  const RunThreads threads(run);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  const VisibilityFieldImpl& f = *impl_;
-  int halves = 0;
-  for (int half = 0; half < 2; ++half) {
-    const bool wanted = f.shadow || (settings.octants >> (4 * half) & 0xF) != 0;
-    halves |= int{f.has_half(half) && wanted} << half;
-  }
-  const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
-  Progress progress(static_cast<std::int64_t>(blocks), run.progress);
-  executor.parallel_for(static_cast<int>(blocks), [&](int block, int) {
-    if (progress.cancelled()) return;
-    const std::size_t begin = static_cast<std::size_t>(block) * kBlock;
-    const std::size_t end = std::min(points.size(), begin + kBlock);
-    float values[kMaxChannels];
-    for (std::size_t i = begin; i < end; ++i) {
-      const SurfacePoint& point = points[i];
-      Vec3 p = point.position;
-      for (int a = 0; a < 3; ++a) p[a] += f.scheme.lookup * f.spacing[a] * point.normal[a];
-      if (f.shadow) {
-        const Vec3 q = p;
-        for (int a = 0; a < 3; ++a) {
-          p[a] = f.turned[a][0] * q[0] + f.turned[a][1] * q[1] + f.turned[a][2] * q[2];
-        }
-      }
-      const Place place = f.place(p);
-      f.sample(place, halves, values);
-      visibility[i] = gather(f, settings, point, place, values);
+  return guarded("the light of surface points", [&]() -> Status {
+    if (empty()) return invalid_input("the visibility field is empty; sweep it first");
+    if (settings.octants == 0 || settings.octants > kAllOctants) {
+      return invalid_argument(text("octants is ", settings.octants, "; it must be in [1, 255]"));
     }
-    progress.advance();
+    if (visibility.size() != points.size()) {
+      return invalid_input(text("visibility holds ", visibility.size(), " values; it must hold ",
+                                points.size(), ", one per point"));
+    }
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    const VisibilityFieldImpl& f = *impl_;
+    int halves = 0;
+    for (int half = 0; half < 2; ++half) {
+      const bool wanted = f.shadow || (settings.octants >> (4 * half) & 0xF) != 0;
+      halves |= int{f.has_half(half) && wanted} << half;
+    }
+    const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
+    Progress progress(static_cast<std::int64_t>(blocks), run.progress);
+    executor.parallel_for(static_cast<int>(blocks), [&](int block, int) {
+      if (progress.cancelled()) return;
+      const std::size_t begin = static_cast<std::size_t>(block) * kBlock;
+      const std::size_t end = std::min(points.size(), begin + kBlock);
+      float values[kMaxChannels];
+      for (std::size_t i = begin; i < end; ++i) {
+        const SurfacePoint& point = points[i];
+        Vec3 p = point.position;
+        for (int a = 0; a < 3; ++a) p[a] += f.scheme.lookup * f.spacing[a] * point.normal[a];
+        if (f.shadow) {
+          const Vec3 q = p;
+          for (int a = 0; a < 3; ++a) {
+            p[a] = f.turned[a][0] * q[0] + f.turned[a][1] * q[1] + f.turned[a][2] * q[2];
+          }
+        }
+        const Place place = f.place(p);
+        f.sample(place, halves, values);
+        visibility[i] = gather(f, settings, point, place, values);
+      }
+      progress.advance();
+    });
+    if (progress.cancelled()) {
+      return {StatusCode::kCancelled, "the look-up of light was cancelled by the caller"};
+    }
+    return {};
   });
-  if (progress.cancelled()) {
-    return {StatusCode::kCancelled, "the look-up of light was cancelled by the caller"};
-  }
-  return {};
 }
 
 }  // namespace obscura

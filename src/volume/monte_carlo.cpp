@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/guarded.h"
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
@@ -93,27 +94,29 @@ template <class F>
 Status for_points(const GridView<const float>& distance, std::span<const SurfacePoint> points,
                   const MonteCarloSettings& settings, std::span<float> visibility,
                   const RunOptions& run, const F& value) {
-  const RunThreads threads(run);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
-  Progress progress(static_cast<std::int64_t>(blocks), run.progress);
-  executor.parallel_for(static_cast<int>(blocks), [&](int block, int) {
-    if (progress.cancelled()) return;
-    const std::size_t begin = static_cast<std::size_t>(block) * kBlock;
-    const std::size_t end = std::min(points.size(), begin + kBlock);
-    for (std::size_t i = begin; i < end; ++i) {
-      const SurfacePoint& point = points[i];
-      Vec3 p = point.position;
-      for (int a = 0; a < 3; ++a) p[a] += settings.start * distance.spacing[a] * point.normal[a];
-      visibility[i] = value(p, point, static_cast<std::uint32_t>(i));
+  return guarded("the rays of a volume", [&]() -> Status {
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
+    Progress progress(static_cast<std::int64_t>(blocks), run.progress);
+    executor.parallel_for(static_cast<int>(blocks), [&](int block, int) {
+      if (progress.cancelled()) return;
+      const std::size_t begin = static_cast<std::size_t>(block) * kBlock;
+      const std::size_t end = std::min(points.size(), begin + kBlock);
+      for (std::size_t i = begin; i < end; ++i) {
+        const SurfacePoint& point = points[i];
+        Vec3 p = point.position;
+        for (int a = 0; a < 3; ++a) p[a] += settings.start * distance.spacing[a] * point.normal[a];
+        visibility[i] = value(p, point, static_cast<std::uint32_t>(i));
+      }
+      progress.advance();
+    });
+    if (progress.cancelled()) {
+      return {StatusCode::kCancelled, "the Monte Carlo run was cancelled by the caller"};
     }
-    progress.advance();
+    return {};
   });
-  if (progress.cancelled()) {
-    return {StatusCode::kCancelled, "the Monte Carlo run was cancelled by the caller"};
-  }
-  return {};
 }
 
 }  // namespace

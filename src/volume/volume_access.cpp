@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/guarded.h"
 #include "core/run_threads.h"
 #include "core/text.h"
 #include "volume/range_kernel.h"
@@ -79,44 +80,46 @@ void volume_row(const VolumeView& volume, int y, int z, float* values) {
 }
 
 Status volume_range(const VolumeView& volume, VolumeRange* range, const RunOptions& run) {
-  if (Status s = validate(volume); !s.ok()) return s;
-  const RunThreads threads(run);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  std::vector<PlaneRange> planes(static_cast<std::size_t>(volume.size[2]));
-  std::vector<std::vector<float>> rows(static_cast<std::size_t>(executor.thread_count()));
-  for (auto& row : rows) row.resize(static_cast<std::size_t>(volume.size[0]));
-  const auto stride = strides_of(volume);
-  const bool plain = volume.type == VoxelType::kF32 && stride[0] == 1 && volume.slope == 1 &&
-                     volume.intercept == 0;
-  executor.parallel_for(volume.size[2], [&](int z, int worker) {
-    float* converted = rows[static_cast<std::size_t>(worker)].data();
-    for (int y = 0; y < volume.size[1]; ++y) {
-      const float* row = converted;
-      if (plain) {
-        row = static_cast<const float*>(volume.data) + y * stride[1] + z * stride[2];
-      } else {
-        volume_row(volume, y, z, converted);
+  return guarded("the range of a volume", [&]() -> Status {
+    if (Status s = validate(volume); !s.ok()) return s;
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    std::vector<PlaneRange> planes(static_cast<std::size_t>(volume.size[2]));
+    std::vector<std::vector<float>> rows(static_cast<std::size_t>(executor.thread_count()));
+    for (auto& row : rows) row.resize(static_cast<std::size_t>(volume.size[0]));
+    const auto stride = strides_of(volume);
+    const bool plain = volume.type == VoxelType::kF32 && stride[0] == 1 && volume.slope == 1 &&
+                       volume.intercept == 0;
+    executor.parallel_for(volume.size[2], [&](int z, int worker) {
+      float* converted = rows[static_cast<std::size_t>(worker)].data();
+      for (int y = 0; y < volume.size[1]; ++y) {
+        const float* row = converted;
+        if (plain) {
+          row = static_cast<const float*>(volume.data) + y * stride[1] + z * stride[2];
+        } else {
+          volume_row(volume, y, z, converted);
+        }
+        add_row_to_range(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
       }
-      add_row_to_range(row, volume.size[0], &planes[static_cast<std::size_t>(z)]);
+    });
+    // Planes are added in order, so that the result does not depend on the threads.
+    PlaneRange all;
+    for (const PlaneRange& plane : planes) {
+      all.min = std::min(all.min, plane.min);
+      all.max = std::max(all.max, plane.max);
+      all.sum += plane.sum;
+      all.finite += plane.finite;
     }
+    if (all.finite == 0) return invalid_input("volume has no finite voxel; give one that has");
+    range->min = all.min;
+    range->max = all.max;
+    range->mean = all.sum / static_cast<double>(all.finite);
+    range->finite = all.finite;
+    range->not_finite =
+        std::int64_t{1} * volume.size[0] * volume.size[1] * volume.size[2] - all.finite;
+    return {};
   });
-  // Planes are added in order, so that the result does not depend on the threads.
-  PlaneRange all;
-  for (const PlaneRange& plane : planes) {
-    all.min = std::min(all.min, plane.min);
-    all.max = std::max(all.max, plane.max);
-    all.sum += plane.sum;
-    all.finite += plane.finite;
-  }
-  if (all.finite == 0) return invalid_input("volume has no finite voxel; give one that has");
-  range->min = all.min;
-  range->max = all.max;
-  range->mean = all.sum / static_cast<double>(all.finite);
-  range->finite = all.finite;
-  range->not_finite =
-      std::int64_t{1} * volume.size[0] * volume.size[1] * volume.size[2] - all.finite;
-  return {};
 }
 
 }  // namespace obscura

@@ -40,7 +40,7 @@ TEST_F(CommandTest, SimdTargetsAreListedLimitedAndReported) {
   ASSERT_EQ(all.code, 0) << all.err;
   const std::string slowest = all.out.substr(0, all.out.find('\n'));
   const CommandResult limited =
-      run("ao 'scene:bowl?size=32x18' --method line -o v.pfm --json -", "OBSCURA_SIMD=" + slowest);
+      run("ao 'scene:bump?size=32x18' --method line -o v.pfm --json -", "OBSCURA_SIMD=" + slowest);
   ASSERT_EQ(limited.code, 0) << limited.err;
   const auto machine = nlohmann::json::parse(limited.out)["machine"];
   EXPECT_EQ(machine["simd_limit"], slowest);

@@ -1,4 +1,4 @@
-// Leaf functions, C++ and GLSL: see math/leaf-inl.h. Far-field ambient obscurance, section 10:
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h. Groups of pixels (Timonen 2013, section 10):
 // which neighbours see a pixel's surface, and the blur that follows.
 const float kLeastCosine = 0.5f, kDepthRatio = 0.03f;
 const int kBlurReach = 2;

@@ -119,7 +119,7 @@ TEST_F(Gltf, QuantizedPositions) {
   EXPECT_FLOAT_EQ(mesh.position(1).x, 15);
   EXPECT_FLOAT_EQ(mesh.position(2).y, 5);
   const Mesh normalized = load("n.glb", glb(text(R"(, "normalized": true)"), words));
-  EXPECT_NEAR(normalized.position(1).x, 5 + 0.01 * 1000 / 65535, 1e-6);
+  EXPECT_NEAR(normalized.position(1).x + normalized.origin.x, 5 + 0.01 * 1000 / 65535, 1e-9);
   const std::string shorts = bytes_of<std::int8_t>({0, 0, 0, 0, -128, 0, 0, 0, 0, 127, 0, 0});
   const std::string as_bytes = file(
       R"({"byteLength": 12})", R"({"buffer": 0, "byteLength": 12, "byteStride": 4})",

@@ -146,7 +146,7 @@ TEST_F(Ply, HeadersThatLieAreRefusedInOneSentence) {
   refuse("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
          "no x, y and z");
   refuse(head + "element face 1\n" + list + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n",
-         "ends early in 'face' 0");
+         "is cut short in 'face' 0");
   refuse(head + "element face 1\n" + list + "0 0 0\n1 0 \x1b[2J\n0 1 0\n3 0 1 2\n",
          "'?[2J' for a number in 'vertex' 1");
   refuse(head + "element face 1\n" + list + "0 0 0\n1 0 0\n0 1 0\n200 0 1 2\n",

@@ -2,8 +2,9 @@
 // C++ within a class. Before this: kQuadratic, kNormals, kThickness and rho_integral(z, lateral),
 // the integral of rho along a sample's line from the sphere's middle to depth offset z.
 
-// Section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma, as a z + b with
-// a = -1/(2 sigma), b = (mu + sigma)/(2 sigma). Integral of rho times it over [-zs, zs].
+// Loos and Sloan 2010, section 4.2: visibility is 1 up to mu - sigma and falls to 0 at mu + sigma,
+// as a z + b with a = -1/(2 sigma), b = (mu + sigma)/(2 sigma). Integral of rho times it over [-zs,
+// zs].
 LEAF(Real) line_integral(Real mu, Real sigma, Real zs, Real half_line, Real lateral) {
   Real end = mu + sigma;
   Real lo = leaf_max(leaf_min(mu - sigma, zs), leaf_neg(zs));
@@ -30,7 +31,7 @@ sample_line(Real mu, Real sigma, Real share, LEAF_IN(PlaneMoments) plane, Real b
     s.open = leaf_min(s.open, s.bound);
   }
   if (kThickness) {
-    // And what is free again behind the occluder, section 4.3.
+    // And what is free again behind the occluder (Loos and Sloan 2010, section 4.3).
     Real back = leaf_min(mu + behind, real(kMaxOffset));
     Real free = leaf_min(line_integral(back, sigma, zs, half_line, lateral), s.bound);
     s.open = s.open + (s.bound - free);

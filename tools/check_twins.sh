@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that every formula stands once. usage: tools/check_twins.sh [FOLDER]
 #
-# Formulas that the processor and shaders share are leaf files, src/**/*_leaf.h, which both read. So
+# Formulas that the CPU and shaders share are leaf files, src/**/*_leaf.h, which both read. So
 # no shader text may stand beside a kernel's of the same name, and no function of a leaf file may be
 # defined again elsewhere.
 set -euo pipefail

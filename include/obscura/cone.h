@@ -55,7 +55,7 @@ struct BentCone {
 
 // From N, the uniform visibility and the unit normal. A closed point, no direction of which is open
 // (|N| or twice the visibility at most 1e-3), gets its normal and the angle 0: a cone with nothing
-// open. Every method says the same of a closed point, on the processor and on Vulkan.
+// open. Every method says the same of a closed point, on the CPU and on Vulkan.
 BentCone bent_cone(ConeEstimate estimate, const std::array<float, 3>& integral,
                    float ambient_occlusion, const std::array<float, 3>& normal);
 

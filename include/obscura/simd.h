@@ -9,7 +9,7 @@
 #include "obscura/status.h"
 
 // The instruction sets (SIMD targets) that kernels run with. Each kernel is compiled for several
-// and the best that the processor has is chosen when it first runs.
+// and the best that the CPU has is chosen when it first runs.
 
 namespace obscura {
 

@@ -18,7 +18,7 @@ std::string name_of(std::int64_t target) {
   return name;
 }
 
-// What the processor supports of what is compiled, whatever the limit; a bit each, better targets
+// What the CPU supports of what is compiled, whatever the limit; a bit each, better targets
 // are lower bits.
 std::int64_t usable_targets() {
   static const std::int64_t targets = [] {

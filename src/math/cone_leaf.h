@@ -7,7 +7,7 @@ LEAF(Real) cap_cosine(Real mean_length) {
   return leaf_min(c, real(1.0f));
 }
 
-// The cone's half-angle from |N_ss|; `paper`: section 3.2, (1 - c) pi/2.
+// The cone's half-angle from |N_ss|; `paper`: Klehm et al. 2011, section 3.2, (1 - c) pi/2.
 LEAF(Real) cone_half_angle(bool paper, Real mean_length) {
   Real c = cap_cosine(mean_length);
   return paper ? (real(1.0f) - c) * real(1.57079632679f) : fast_acos(c);

@@ -77,9 +77,9 @@ class Beside {
   double magnitude_, edge_ = 1e30, gradient2_ = 0;
 };
 
-// One plane of voxels with those before and after it.
+// One plane of voxels with those before and after it, and which voxels of a row are near.
 struct Planes {
-  explicit Planes(std::size_t voxels) {
+  Planes(std::size_t width, std::size_t voxels) : near(width) {
     for (int i = 0; i < 3; ++i) {
       values[i].resize(voxels);
       open[i].resize(voxels);
@@ -91,6 +91,7 @@ struct Planes {
   }
   std::vector<float> values[3];
   std::vector<std::uint8_t> open[3];
+  std::vector<std::uint8_t> near;
 };
 
 // Marks the voxels of a row that have a neighbour on the other side of the surface; returns whether
@@ -119,16 +120,20 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
   const std::ptrdiff_t row = nx;
   const auto stride = distance.strides();
   const OpenField field(volume, settings);
-  executor.parallel_for((nz + kSlab - 1) / kSlab, [&](int slab, int) {
+  // Made before anything is written: nothing allocates within the loop.
+  std::vector<Planes> scratch;
+  for (int i = 0; i < executor.thread_count(); ++i) {
+    scratch.emplace_back(static_cast<std::size_t>(nx), static_cast<std::size_t>(row * ny));
+  }
+  executor.parallel_for((nz + kSlab - 1) / kSlab, [&](int slab, int worker) {
     const int begin = slab * kSlab, end = std::min(nz, begin + kSlab);
-    Planes planes(static_cast<std::size_t>(row * ny));
+    Planes& planes = scratch[static_cast<std::size_t>(worker)];
     auto load = [&](int z, int place) {
       if (z < 0 || z >= nz) return;
       field.plane(z, planes.values[place].data(), planes.open[place].data());
     };
     load(begin - 1, 0);
     load(begin, 1);
-    std::vector<std::uint8_t> near(static_cast<std::size_t>(nx));
     for (int z = begin; z < end; ++z) {
       load(z + 1, 2);
       const bool below = z > 0, above = z + 1 < nz;
@@ -143,12 +148,12 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
         for (int x = 0; x < nx; ++x) {
           out[x * stride[0]] = open[x] ? kUnknownDistance : -kUnknownDistance;
         }
-        if (!mark_near(open, beside, nx, near.data())) continue;
+        if (!mark_near(open, beside, nx, planes.near.data())) continue;
         const float* f = planes.values[1].data() + at;
         const float* low = planes.values[0].data() + at;
         const float* high = planes.values[2].data() + at;
         for (int x = 0; x < nx; ++x) {
-          if (!near[x]) continue;
+          if (!planes.near[static_cast<std::size_t>(x)]) continue;
           Beside voxel(f[x]);
           voxel.axis(x > 0 ? f + x - 1 : nullptr, x + 1 < nx ? f + x + 1 : nullptr,
                      volume.spacing[0]);

@@ -2,12 +2,14 @@
 
 #include "io/images/files.h"
 #include "io/volumes/vdb.h"
+#include "scene/truth/compare.h"
 #include "scene/volumes/load_volume.h"
 #include "tests/command/run_command.h"
 
 namespace obscura {
 namespace {
 
+using tools::Image;
 using VolumeCommand = CommandTest;
 
 TEST_F(VolumeCommand, PicturesOfEveryLight) {
@@ -45,6 +47,18 @@ TEST_F(VolumeCommand, MonteCarloAgreesWithTheSweep) {
   EXPECT_NE(sweep.find("coverage"), nullptr);
   EXPECT_NE(sweep.find("depth"), nullptr);
   EXPECT_NE(read_file(path("sweep.json")).find("time to render"), std::string::npos);
+}
+
+// The default sweep against rays kept in the repository (tests/truth/make.sh).
+TEST_F(VolumeCommand, SweepMeetsItsErrorBar) {
+  expect_success("volume volume:gyroid --size 64x64 --samples-per-pixel 1 -o sweep.exr");
+  Image sweep, truth;
+  ASSERT_TRUE(tools::read_image(path("sweep.exr"), &sweep).ok());
+  ASSERT_TRUE(tools::read_image(OBSCURA_SOURCE_DIR "/tests/truth/gyroid.exr", &truth).ok());
+  tools::Comparison c;
+  ASSERT_TRUE(tools::compare(sweep.view(0), truth.view(0), {}, &c).ok());
+  EXPECT_LE(c.e_a, 0.6);
+  EXPECT_GE(c.correlation, 0.995);
 }
 
 TEST_F(VolumeCommand, IsovalueIsChosenAndSaid) {

@@ -42,7 +42,8 @@ struct FrameImages {
 };
 
 // Memory that the caller provides for what passes hand on: STORAGE_BUFFER and TRANSFER_DST usage,
-// device-local. One is enough for all frames on one queue.
+// device-local. One is enough for all frames on one queue. Recorders may share it on one queue, if
+// record_tables() of each comes before its record() again whenever another has used the memory.
 struct Scratch {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;  // a multiple of 256
@@ -75,7 +76,8 @@ class OBSCURA_API OBSCURA_EXPERIMENTAL Recorder {
   // `frame` is below FrameShape::frames and not in flight. After bind_scratch.
   Status bind_images(int frame, const FrameImages& images);
 
-  // Once, before the first record(): fills the tables in the scratch memory.
+  // Once, before the first record(): fills the tables in the scratch memory. Waits, on the device,
+  // for earlier compute and transfer work.
   void record_tables(VkCommandBuffer commands) const;
 
   // Waits, on the device, for earlier compute and transfer work on the scratch memory; the caller's

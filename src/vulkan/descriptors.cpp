@@ -8,8 +8,6 @@ namespace {
 using gpu::BoundSlot;
 using gpu::Slot;
 
-constexpr VkDeviceSize kAlignment = 256;  // the largest minStorageBufferOffsetAlignment allowed
-
 VkImageView view_of(const Slot& slot, const FrameImages& images) {
   switch (slot.kind) {
     case Slot::kNormalImage:
@@ -30,7 +28,7 @@ VkImageView view_of(const Slot& slot, const FrameImages& images) {
 void ScratchLayout::add_region(VkDeviceSize size) {
   sizes.push_back(size);
   offsets.push_back(bytes);
-  bytes += (size + kAlignment - 1) / kAlignment * kAlignment;
+  bytes += (size + kScratchAlignment - 1) / kScratchAlignment * kScratchAlignment;
 }
 
 Descriptors::~Descriptors() {

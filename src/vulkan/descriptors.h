@@ -11,6 +11,9 @@
 
 namespace obscura::vulkan {
 
+// The largest minStorageBufferOffsetAlignment that Vulkan allows.
+inline constexpr VkDeviceSize kScratchAlignment = 256;
+
 // Where regions lie in the scratch memory.
 struct ScratchLayout {
   std::vector<VkDeviceSize> sizes, offsets;

@@ -71,6 +71,10 @@ class Recorder::Impl {
   Status bind_images(int frame, const FrameImages& images) {
     if (Status s = check_frame(frame, shape_); !s.ok()) return s;
     if (!scratch_.buffer) return invalid_argument("scratch memory must be bound before images");
+    if (scratch_.offset % kScratchAlignment != 0) {
+      return invalid_argument(text("the scratch memory's offset is ", scratch_.offset,
+                                   "; it must be a multiple of ", kScratchAlignment));
+    }
     if (Status s = check(images, shape_); !s.ok()) return s;
     descriptors_.write(frame, images, scratch_, layout_);
     bound_ |= 1u << frame;
@@ -78,7 +82,14 @@ class Recorder::Impl {
   }
 
   void record_tables(VkCommandBuffer commands) const {
-    if (program_.table_region < 0) return;
+    if (program_.table_region < 0 || !scratch_.buffer) return;
+    // Another recorder may have used the same scratch memory just before.
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
+                                 VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                                 VK_ACCESS_TRANSFER_WRITE_BIT};
+    f_.CmdPipelineBarrier(commands,
+                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                          VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
     const auto region = static_cast<std::size_t>(program_.table_region);
     const VkDeviceSize start = scratch_.offset + layout_.offsets[region];
     const VkDeviceSize bytes = program_.tables.size() * sizeof(float);
@@ -187,6 +198,7 @@ Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
 Status Recorder::create(const Device& device, const MethodSettings& settings,
                         const FrameShape& shape, Recorder* recorder) {
+  if (!recorder) return invalid_argument("recorder is null; it must point to a Recorder");
   if (Status s = check(device); !s.ok()) return s;
   if (Status s = gpu::check(shape); !s.ok()) return s;
   try {

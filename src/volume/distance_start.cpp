@@ -122,6 +122,7 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
   const OpenField field(volume, settings);
   // Made before anything is written: nothing allocates within the loop.
   std::vector<Planes> scratch;
+  scratch.reserve(static_cast<std::size_t>(executor.thread_count()));
   for (int i = 0; i < executor.thread_count(); ++i) {
     scratch.emplace_back(static_cast<std::size_t>(nx), static_cast<std::size_t>(row * ny));
   }

@@ -16,8 +16,8 @@ class EstimatorImpl;
 
 // A method with fixed settings and image size, for many frames: everything that can be made once
 // (patterns, tables, scratch memory) is made by create(); threads are made by the first run() that
-// asks for so many, and further ones allocate nothing. An object runs once at a time: a second run()
-// while one is under way is refused.
+// asks for so many, and further ones allocate nothing. An object runs once at a time: a second
+// run() while one is under way is refused.
 class OBSCURA_API Estimator {
  public:
   Estimator();

@@ -22,3 +22,24 @@ set_tests_properties(
   Horizon.BitsDoNotDependOnThreads
   Reference.SameBitsForAnyNumberOfThreads
   PROPERTIES LABELS "kernel;threads")
+# `slow` are those that take more than ten seconds under a sanitizer and look at results, not at
+# memory: continuous integration runs them without.
+set_tests_properties(
+  PatternFiles.PatternsAreMadeAsTheyShip
+  ThreadsTest.Light
+  LightCommandTest.ComparatorsLightThePicture
+  LightCommandTest.KeepsTheConvolution
+  PROPERTIES LABELS slow)
+set_tests_properties(
+  FarFieldDirections.AgreeWithTracedOnes
+  FarFieldDirections.UniformIntegralCarriesTheVisibility
+  FarFieldSharing.StaysNearTheFullEvaluation
+  FarField.FiniteMatterAgreesWithRays
+  Horizon.SlicesAgreeWithRaysThroughTheDepthField
+  HorizonDirections.SlicesAgreeWithRaysThroughTheDepthField
+  ModelsOfMatter.InTheScenes
+  ModelsOfMatter.OfTheBunny
+  TruthImages.Hall
+  TruthImages.Meadow
+  TruthImages.Tower
+  PROPERTIES LABELS "kernel;slow")

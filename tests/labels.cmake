@@ -16,7 +16,6 @@ set_tests_properties(
   Surface.SameBitsForAnyThreadsAndCloseOnEveryTarget
   RunThreads.ExecutorsWithoutThreadsAndNumbersOutOfRangeAreRefused
   FarField.BitsDoNotDependOnThreads
-  Threads.EveryMethodAndOutputHasTheSameBits
   Threads.AnEstimatorThatIsRunningRefusesToRun
   Volumetric.AnyNumberOfThreadsGivesTheSameBits
   Horizon.BitsDoNotDependOnThreads
@@ -43,3 +42,6 @@ set_tests_properties(
   TruthImages.Meadow
   TruthImages.Tower
   PROPERTIES LABELS "kernel;slow")
+set_tests_properties(
+  Threads.EveryMethodAndOutputHasTheSameBits
+  PROPERTIES LABELS "kernel;slow;threads")

@@ -10,30 +10,35 @@ namespace obscura::reference {
 // Images for every output of an estimator, all filled with one number at first.
 class EveryOutput {
  public:
-  static constexpr int kImages = 3 + 4 * 3;  // one channel each
+  static constexpr int kOutputs = 7, kImages = 3 + 4 * 3;  // an image has one channel
 
   EveryOutput(Extent size, float fill)
       : size_(size), values_(static_cast<std::size_t>(kImages) * size.width * size.height, fill) {}
 
   const std::vector<float>& values() const { return values_; }
 
-  // Those outputs that a method gives: found by asking for each alone.
-  Outputs offered(const MethodSettings& settings, const DepthField& field) {
+  // Which of the outputs below a method gives: found by asking for each alone.
+  static std::vector<bool> offered(const MethodSettings& settings, const DepthField& field) {
+    EveryOutput scratch(field.visible(), 0);
+    std::vector<bool> given;
+    for (int wanted = 0; wanted < kOutputs; ++wanted) {
+      std::vector<bool> one(kOutputs);
+      one[wanted] = true;
+      given.push_back(compute(field, settings, scratch.outputs(one), {.threads = 1}).ok());
+    }
+    return given;
+  }
+
+  Outputs outputs(const std::vector<bool>& wanted) {
     Outputs all;
-    auto keep = [&](auto member, auto view) {
-      Outputs one;
-      one.*member = view;
-      std::vector<float> before = values_;
-      if (compute(field, settings, one, {.threads = 1}).ok()) all.*member = view;
-      values_ = before;
-    };
-    int image = 0;
+    int output = 0, image = 0;
     for (auto member : {&Outputs::visibility, &Outputs::cone_angle, &Outputs::standard_error}) {
-      keep(member, view(image++));
+      if (wanted[output++]) all.*member = view(image);
+      ++image;
     }
     for (auto member : {&Outputs::bent_normal, &Outputs::uniform_integral,
                         &Outputs::cosine_integral, &Outputs::normal}) {
-      keep(member, VectorView<float>{view(image), view(image + 1), view(image + 2)});
+      if (wanted[output++]) all.*member = {view(image), view(image + 1), view(image + 2)};
       image += 3;
     }
     return all;

@@ -1,10 +1,6 @@
 # Labels of single tests, read by ctest after it has found them: `threads` are those that look at
-# what several threads do, which the thread sanitizer runs in continuous integration.
-set_tests_properties(
-  Scenes.SameSeedSameBitsForAnyNumberOfThreads
-  Geometric.SameBitsForAnyNumberOfThreads
-  CommandTest.AnyThreadCountGivesTheSameBytes
-  PROPERTIES LABELS threads)
+# what several threads do, which the thread sanitizer runs in continuous integration; none that needs
+# Embree, in which it reports races that are none.
 set_tests_properties(
   Environment.BitsDoNotDependOnThreads
   Lighting.BitsDoNotDependOnThreads

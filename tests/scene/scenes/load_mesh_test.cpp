@@ -2,7 +2,6 @@
 #include "scene/scenes/mesh_view.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -14,25 +13,13 @@
 
 #include "scene/rays/solids.h"
 #include "scene/truth/geometric.h"
+#include "tests/io/meshes/temporary_folder.h"
 
 namespace obscura::tools {
 namespace {
 
-class LoadMesh : public testing::Test {
+class LoadMesh : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("obscura_mesh_" + std::to_string(::getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string write(const std::string& name, const std::string& contents) {
-    const std::string path = (folder_ / name).string();
-    std::ofstream(path, std::ios::binary) << contents;
-    return path;
-  }
   std::string write_zipped(const std::string& name, const std::string& contents,
                            std::size_t cut = 0) {
     const std::string path = (folder_ / name).string();
@@ -52,8 +39,6 @@ class LoadMesh : public testing::Test {
     EXPECT_EQ(status.message().find('\n'), std::string::npos) << status.message();
     EXPECT_EQ(mesh.scene_size, -7);
   }
-
-  std::filesystem::path folder_;
 };
 
 // Corners of the unit cube and its twelve triangles, seen from outside counterclockwise.

@@ -10,6 +10,7 @@ set_tests_properties(
   VolumeRange.IsThatOfPlainLoopsForAnyThreads
   Occlusion.BitsDoNotDependOnThreads
   Surface.SameBitsForAnyThreadsAndCloseOnEveryTarget
+  TerrainAgreement.SameBitsForAnyNumberOfThreads
   RunThreads.ExecutorsWithoutThreadsAndNumbersOutOfRangeAreRefused
   FarField.BitsDoNotDependOnThreads
   Threads.AnEstimatorThatIsRunningRefusesToRun

@@ -32,7 +32,7 @@ rule_of_names() {
 
 # Vulkan's own headers, vulkan/vulkan*.h, lie in a folder of the same name as the room.
 recorder='vulkan/([^v]|v[^u])'
-rooms="core/|math/|gpu/|view/|filters/|screen/|lighting/|volume/|$recorder|shaders/"
+rooms="core/|math/|gpu/|view/|filters/|screen/|lighting/|volume/|terrain/|$recorder|shaders/"
 files_and_command='io/|scene/|device/|reproduce/|bench/|apps/|examples/|tests/'
 
 rule 'paths begin at a room' '.' '\.\.?/'
@@ -40,21 +40,24 @@ rule 'public headers include public headers only' '^include/' \
   "$rooms|$files_and_command|hwy/|tbb/"
 rule 'the library knows neither files nor the command' '^src/' \
   "$files_and_command|CLI|fmt/|nlohmann|Imf|Open|stb"
-rule 'only core starts threads' '^src/(math|gpu|view|filters|screen|lighting|volume|vulkan)/' \
+rule 'only core starts threads' '^src/(math|gpu|view|filters|screen|lighting|volume|terrain|vulkan)/' \
   'thread>|mutex>|condition_variable>|future>|tbb/'
 
 # Inside the library, from the ground up.
-rule 'core stands alone' '^src/core/' "math/|gpu/|view/|filters/|screen/|lighting/|volume/|$recorder"
-rule 'math knows core only' '^src/math/' "gpu/|view/|filters/|screen/|lighting/|volume/|$recorder"
+rule 'core stands alone' '^src/core/' "math/|gpu/|view/|filters/|screen/|lighting/|volume/|terrain/|$recorder"
+rule 'math knows core only' '^src/math/' "gpu/|view/|filters/|screen/|lighting/|volume/|terrain/|$recorder"
 report 'leaf files include leaf files only' "$(grep -E '_leaf\.h$' <<<"$files" |
   xargs -r grep -nHE '^[[:space:]]*#[[:space:]]*include' | grep -v '_leaf\.h"' || true)"
-rule 'gpu knows core and math only' '^src/gpu/' "view/|filters/|screen/|lighting/|volume/|$recorder"
-rule 'view knows core, math and gpu only' '^src/view/' "filters/|screen/|lighting/|volume/|$recorder"
-rule 'filters know core, math, gpu and view only' '^src/filters/' "screen/|lighting/|volume/|$recorder"
-rule 'estimators know core, math, gpu, view and filters only' '^src/screen/' "lighting/|volume/|$recorder"
-rule 'lighting knows core, math, gpu, view and filters only' '^src/lighting/' "screen/|volume/|$recorder"
-rule 'volume knows core and math only' '^src/volume/' "gpu/|view/|filters/|screen/|lighting/|$recorder"
-rule 'the recorder knows neither lighting nor volumes' '^src/vulkan/' 'lighting/|volume/'
+rule 'gpu knows core and math only' '^src/gpu/' "view/|filters/|screen/|lighting/|volume/|terrain/|$recorder"
+rule 'view knows core, math and gpu only' '^src/view/' "filters/|screen/|lighting/|volume/|terrain/|$recorder"
+rule 'filters know core, math, gpu and view only' '^src/filters/' "screen/|lighting/|volume/|terrain/|$recorder"
+rule 'estimators know core, math, gpu, view and filters only' '^src/screen/' "lighting/|volume/|terrain/|$recorder"
+rule 'lighting knows core, math, gpu, view and filters only' '^src/lighting/' "screen/|volume/|terrain/|$recorder"
+rule 'volume knows core and math only' '^src/volume/' \
+  "gpu/|view/|filters/|screen/|lighting/|terrain/|$recorder"
+rule 'terrain knows core and math only' '^src/terrain/' \
+  "gpu/|view/|filters/|screen/|lighting/|volume/|$recorder"
+rule 'the recorder knows neither lighting nor volumes nor terrain' '^src/vulkan/' 'lighting/|volume/|terrain/'
 
 # An estimator is a folder of src/screen; files beside the folders are what all of them share.
 for folder in src/screen/*/; do
@@ -65,11 +68,11 @@ for folder in src/screen/*/; do
 done
 
 # Vulkan's headers and calls: the recorder and the device. Examples show both to the user.
-no_vulkan='^(src/(core|math|gpu|view|filters|screen|lighting|volume)|io|scene|reproduce|bench|apps)/'
+no_vulkan='^(src/(core|math|gpu|view|filters|screen|lighting|volume|terrain)|io|scene|reproduce|bench|apps)/'
 rule 'only src/vulkan and device include Vulkan' "$no_vulkan" 'vulkan/|volk'
 rule_of_names 'only src/vulkan and device call Vulkan' "$no_vulkan" '(^|[^A-Za-z0-9_])(vk[A-Z]|VK_)'
 rule 'files of the CPU do not include obscura/vulkan.h' \
-  '^src/((core|math|view|lighting|volume)/|.*/(plan|cpu|kernel)[^/]*$)' 'obscura/vulkan'
+  '^src/((core|math|view|lighting|volume|terrain)/|.*/(plan|cpu|kernel)[^/]*$)' 'obscura/vulkan'
 
 # Outside the library: public headers, and of each other's rooms those before it.
 for room in io scene device reproduce apps examples; do

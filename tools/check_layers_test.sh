@@ -66,6 +66,7 @@ bad src/screen/half_resolution/cpu.cpp '#include "screen/far_field/plan.h"' 'ano
 bad src/screen/far_field/table.inc '#include "screen/volumetric/line/plan.h"' 'another estimator'
 bad src/lighting/light.cpp '#include "screen/method.h"' 'lighting knows'
 bad src/volume/light.cpp '#include "view/geometry.h"' 'volume knows'
+bad src/terrain/plane.h '#include "volume/transport.h"' 'terrain knows'
 bad src/vulkan/recorder.cpp '#include "volume/transport.h"' 'the recorder knows'
 bad src/gpu/program.h '#include <vulkan/vulkan_core.h>' 'include Vulkan'
 bad src/screen/far_field/gpu.cpp '#include "vulkan/functions.h"' 'include Vulkan'

@@ -21,6 +21,7 @@
 #include "obscura/settings.h"
 #include "obscura/status.h"
 #include "obscura/surface.h"
+#include "obscura/terrain.h"
 #include "obscura/version.h"
 #include "obscura/views.h"
 #include "obscura/volume.h"

@@ -1,0 +1,98 @@
+#ifndef OBSCURA_TERRAIN_H_
+#define OBSCURA_TERRAIN_H_
+
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "obscura/export.h"
+#include "obscura/run_options.h"
+#include "obscura/settings.h"
+#include "obscura/status.h"
+#include "obscura/views.h"
+
+// Ambient visibility of elevation models: sky-view factor, openness and horizons. Arrays in, arrays
+// out.
+//
+// gamma(phi) is the elevation angle of the horizon seen from a cell's ground towards the azimuth
+// phi, signed: below the horizontal it is negative. gamma+ is max(gamma, 0). Azimuths count
+// clockwise from north; row 0 of a raster is its northern edge and column 0 its western one. K
+// azimuths are 360 / K degrees apart, the first is north. A direction in which there are no data
+// has gamma = 0.
+//
+// Angles are in degrees here, as in every tool of the field.
+
+namespace obscura {
+
+// Caller-owned heights of a regular grid.
+struct ElevationModel {
+  // [1, 262144] cells a side, in the unit of the cells' sides times 1 / z_factor. Cells that are
+  // NaN, infinite or beyond 1e9 in magnitude have no data.
+  ImageView<const float> heights;
+  double cell_width = 1, cell_height = 1;  // [1e-4, 1e6] world units, west to east, north to south
+  std::optional<float> nodata{};           // cells of this value have no data
+};
+
+struct TerrainSettings {
+  int azimuths = 16;
+  double radius = std::numeric_limits<double>::infinity();
+  double z_factor = 1;
+  bool curvature = false;
+  double refraction = 0;
+};
+template <FieldsOf<TerrainSettings> Self, class Visitor>
+void visit_fields(Self& s, Visitor&& v) {
+  v(s.azimuths, Field{"azimuths", "", closed(1, 3600), "Directions in which horizons are found."});
+  v(s.radius, Field{"radius", "world units", positive_or_infinite(),
+                    "How far away ground may hide the sky."});
+  v(s.z_factor, Field{"z_factor",
+                      "",
+                      {1e-6, 1e6},
+                      "Heights are multiplied by this; 0.3048 for feet over metres."});
+  v(s.curvature, Field{"curvature",
+                       "",
+                       {},
+                       "Take the curvature of the earth into account; world units are metres."});
+  v(s.refraction, Field{"refraction",
+                        "",
+                        {0, 1, false, true},
+                        "Of light by air, with curvature: the earth's radius grows by "
+                        "1 / (1 - refraction); 0.13 is usual."});
+}
+
+// Caller-owned results, each as large as the model; those that are empty are not computed. Cells
+// without data become NaN. Means are over the K azimuths.
+struct TerrainOutputs {
+  // Share of the sky that is visible, seen as a horizontal hemisphere: 1 - mean(sin gamma+)
+  // (Zaksek, Ostir and Kokalj 2011, equation 4). In [0, 1].
+  ImageView<float> svf;
+  // Share of the light of a uniform sky that reaches the sloping ground (Dozier and Frew 1990,
+  // equation 7b): mean(cos b cos^2 g + sin b cos(phi - a) (pi/2 - g - sin g cos g)) with the slope
+  // b, the aspect a and g = max(gamma, 0, angle of the tangent plane). In [0, 1].
+  ImageView<float> svf_normal;
+  // Share of the light of a uniform sky on horizontal ground: mean(cos^2 gamma+). In [0, 1].
+  ImageView<float> svf_cosine;
+  // Positive openness: mean(90 - gamma) (Yokoyama, Shirasawa and Pike 2002). [0, 180] degrees.
+  ImageView<float> openness;
+  // Openness of the model turned upside down. [0, 180] degrees.
+  ImageView<float> negative_openness;
+  // Share of the elevation angles that are open: 100 mean(1 - gamma+ / 90). In [0, 100] percent.
+  ImageView<float> visible_sky;
+  // None, or one image per azimuth, in their order: gamma. [-90, 90] degrees.
+  std::span<const ImageView<float>> horizon{};
+};
+
+// Computes what `outputs` asks for, in one or two passes over the model for each azimuth.
+//
+// Horizons are those of lines through the grid, with heights interpolated linearly between
+// neighbouring cells of a row or of a column. Every row (or column) that a line crosses is taken
+// into account, however far, out to `radius`; within four rows, samples lie half a row apart.
+//
+// Guarantees: the same bits for any number of threads.
+// Requires: outputs of the model's size that overlap neither each other nor the model.
+OBSCURA_API Status compute_terrain(const ElevationModel& model, const TerrainSettings& settings,
+                                   const TerrainOutputs& outputs, const RunOptions& run = {});
+
+}  // namespace obscura
+
+#endif  // OBSCURA_TERRAIN_H_

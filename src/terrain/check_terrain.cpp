@@ -1,0 +1,83 @@
+#include "terrain/check_terrain.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+
+namespace obscura {
+namespace {
+
+constexpr int kMostCells = 1 << 18;  // a side
+
+Status check_side(const char* name, double side) {
+  if (side >= 1e-4 && side <= 1e6) return {};
+  return invalid_argument(text(name, " is ", side, "; it must be in [1e-4, 1e6]"));
+}
+
+Status check_size(const char* name, const ImageView<float>& view, const ElevationModel& model) {
+  if (view.empty() || (view.width == model.heights.width && view.height == model.heights.height)) {
+    return {};
+  }
+  return invalid_input(text(name, " is ", view.width, "x", view.height,
+                            "; it must be as large as the model, ", model.heights.width, "x",
+                            model.heights.height));
+}
+
+}  // namespace
+
+Status check_terrain(const ElevationModel& model, const TerrainSettings& settings,
+                     const TerrainOutputs& outputs) {
+  if (Status s = validate_ranges(settings); !s.ok()) return s;
+  const auto& heights = model.heights;
+  if (heights.empty()) return invalid_input("heights are missing");
+  if (heights.width < 1 || heights.height < 1 || heights.width > kMostCells ||
+      heights.height > kMostCells) {
+    return invalid_input(text("heights are ", heights.width, "x", heights.height,
+                              " cells; a side must be in [1, ", kMostCells, "]"));
+  }
+  if (Status s = check_side("cell_width", model.cell_width); !s.ok()) return s;
+  if (Status s = check_side("cell_height", model.cell_height); !s.ok()) return s;
+  const double cell = std::max(model.cell_width, model.cell_height);
+  if (settings.radius < cell) {
+    return invalid_argument(text("radius is ", settings.radius,
+                                 "; it must reach the next cell, so be at least ", cell));
+  }
+  struct Named {
+    const char* name;
+    const ImageView<float>& view;
+  };
+  const Named views[] = {{"svf", outputs.svf},
+                         {"svf_normal", outputs.svf_normal},
+                         {"svf_cosine", outputs.svf_cosine},
+                         {"openness", outputs.openness},
+                         {"negative_openness", outputs.negative_openness},
+                         {"visible_sky", outputs.visible_sky}};
+  bool any = !outputs.horizon.empty();
+  for (const Named& v : views) {
+    any = any || !v.view.empty();
+    if (Status s = check_size(v.name, v.view, model); !s.ok()) return s;
+  }
+  if (!any) return invalid_argument("outputs are all empty; give at least one");
+  if (outputs.horizon.empty()) return {};
+  if (outputs.horizon.size() != static_cast<std::size_t>(settings.azimuths)) {
+    return invalid_argument(text("horizon has ", outputs.horizon.size(),
+                                 " images; it must have one per azimuth, ", settings.azimuths));
+  }
+  for (const ImageView<float>& view : outputs.horizon) {
+    if (view.empty()) return invalid_input("horizon has an image without data");
+    if (Status s = check_size("horizon", view, model); !s.ok()) return s;
+  }
+  return {};
+}
+
+double first_height(const ElevationModel& model) {
+  for (int y = 0; y < model.heights.height; ++y) {
+    for (int x = 0; x < model.heights.width; ++x) {
+      const float height = model.heights(x, y);
+      if (has_height(model, height)) return height;
+    }
+  }
+  return 0;
+}
+
+}  // namespace obscura

@@ -1,0 +1,23 @@
+#ifndef OBSCURA_SRC_TERRAIN_CHECK_TERRAIN_H_
+#define OBSCURA_SRC_TERRAIN_CHECK_TERRAIN_H_
+
+#include <cmath>
+
+#include "obscura/terrain.h"
+
+namespace obscura {
+
+Status check_terrain(const ElevationModel& model, const TerrainSettings& settings,
+                     const TerrainOutputs& outputs);
+
+inline bool has_height(const ElevationModel& model, float height) {
+  constexpr float kMost = 1e9f;
+  return std::fabs(height) <= kMost && !(model.nodata && height == *model.nodata);
+}
+
+// Of the first cell that has one, in rows; 0 if none has.
+double first_height(const ElevationModel& model);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_TERRAIN_CHECK_TERRAIN_H_

@@ -1,0 +1,28 @@
+#ifndef OBSCURA_SRC_TERRAIN_DIRECTIONS_H_
+#define OBSCURA_SRC_TERRAIN_DIRECTIONS_H_
+
+#include <vector>
+
+#include "obscura/terrain.h"
+#include "terrain/sweep_kernel.h"
+
+namespace obscura {
+
+// How lines run towards one azimuth. Directions that cross more columns than rows are swept on the
+// transposed grid.
+struct TerrainDirection {
+  int index = 0;  // among the azimuths
+  bool transposed = false;
+  // Without pointers into a grid; near samples and rows are those below.
+  TerrainSweep sweep;
+  std::vector<NearSample> near;
+  std::vector<float> row_offset, row_slope;
+};
+
+// The directions of all azimuths over a model of this size.
+std::vector<TerrainDirection> terrain_directions(const ElevationModel& model,
+                                                 const TerrainSettings& settings);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_TERRAIN_DIRECTIONS_H_

@@ -1,0 +1,86 @@
+#ifndef OBSCURA_SRC_TERRAIN_SWEEP_KERNEL_H_
+#define OBSCURA_SRC_TERRAIN_SWEEP_KERNEL_H_
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace obscura {
+
+// Horizons along one azimuth. The grid is swept row by row, away from the side that the azimuth
+// points to. Lines step one row at a time and move sideways by `shear` columns; each cell belongs
+// to the line that passes nearest, so the lanes of a vector are neighbouring cells of a row.
+
+// A cell without data. The value is finite, so that interpolation next to it stays a number, and
+// far below any ground: no height exceeds 1e9.
+inline constexpr float kNoHeight = -1e30f;
+// Ends a chain of horizon points: higher than a cell without data, lower than any ground.
+inline constexpr float kChainEnd = 0.5f * kNoHeight;
+// Columns on either side of a grid and its sums, with kNoHeight. A grid has one such row above and
+// one below, too.
+inline constexpr int kTerrainMargin = 64;
+// Lines that are swept together.
+inline constexpr int kLinesLog2 = 6, kLines = 1 << kLinesLog2;
+// The most rows that are marched sample by sample; so far sideways the margin reaches.
+inline constexpr int kMostMarched = 24;
+
+// A sample from the cell itself: `back` rows towards the horizon, between the columns `column` and
+// `column` + 1 as counted from the cell's; `half`: the mean of this and of the same columns one row
+// nearer.
+struct NearSample {
+  int back = 0, column = 0;
+  float fraction = 0;
+  bool half = false;
+  float inverse_distance = 1;
+  float drop = 0;  // what the curvature of the earth takes from the slope
+};
+
+enum TerrainSum {
+  kSumSvf,
+  kSumSvfNormal,
+  kSumSvfCosine,
+  kSumOpenness,
+  kSumVisibleSky,
+  kSumHorizon,  // not a sum: the horizon of this azimuth alone
+  kTerrainSums,
+};
+
+struct TerrainSweep {
+  const float* heights = nullptr;  // of row 0, column 0
+  std::ptrdiff_t pitch = 0;        // of heights and sums
+  int width = 0, height = 0;
+  bool reversed = false;  // from the last row to the first
+  double shear = 0;
+  float inverse_step = 1;  // 1 / distance from row to row along a line
+  // By swept row, for a round earth: added to heights, and taken from slopes. Null: a flat one.
+  const float *row_offset = nullptr, *row_slope = nullptr;
+  const NearSample* near = nullptr;
+  int near_count = 0;
+  int marched_rows = 0;  // as far as these samples go
+  float same_rise = 0;   // rises per row that differ by less are the same
+  int window = 0;        // rows that a line looks back; 0: samples only
+  // The unit vector towards the horizon along columns and rows, each divided by the cell's side,
+  // and 1 / the sides.
+  float towards_column = 0, towards_row = 0;
+  float inverse_width = 1, inverse_height = 1;
+  std::array<float*, kTerrainSums> sums{};  // of row 0, column 0; null: not wanted
+};
+
+// Memory of a worker for one block of lines.
+class TerrainScratch {
+ public:
+  // For grids of up to so many rows, and windows of any length if `windows`.
+  void resize(int rows, bool windows);
+
+  std::vector<float> horizon_points;  // {height, slot} by row and line
+  std::vector<float> line_heights;
+  std::vector<float> block_points;  // as horizon_points, looking forth
+  std::vector<float> slopes;
+};
+
+int terrain_blocks(const TerrainSweep& sweep);
+void sweep_terrain_block(const TerrainSweep& sweep, int block, TerrainScratch* scratch);
+
+}  // namespace obscura
+
+#endif  // OBSCURA_SRC_TERRAIN_SWEEP_KERNEL_H_

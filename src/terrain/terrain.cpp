@@ -1,0 +1,202 @@
+#include "obscura/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/guarded.h"
+#include "core/progress.h"
+#include "core/run_threads.h"
+#include "terrain/check_terrain.h"
+#include "terrain/directions.h"
+#include "terrain/plane.h"
+
+namespace obscura {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// A quantity is start + factor * the mean over the azimuths of its sum's terms, in [least, most].
+struct Wanted {
+  TerrainSum sum;
+  ImageView<float> view;
+  double start, factor, least, most;
+};
+
+// A pass over the model as it is, or turned upside down.
+struct Pass {
+  float sign = 1;
+  std::vector<Wanted> wanted;
+  bool horizon = false;
+};
+
+std::vector<Pass> make_passes(const TerrainOutputs& o) {
+  Pass up, down{-1, {}, false};
+  auto want = [](Pass& pass, TerrainSum sum, const ImageView<float>& view, double start,
+                 double factor, double most) {
+    if (!view.empty()) pass.wanted.push_back({sum, view, start, factor, 0, most});
+  };
+  want(up, kSumSvf, o.svf, 0, 1, 1);
+  want(up, kSumSvfNormal, o.svf_normal, 0, 1, 1);
+  want(up, kSumSvfCosine, o.svf_cosine, 0, 1, 1);
+  want(up, kSumOpenness, o.openness, 90, -kDegrees, 180);
+  want(up, kSumVisibleSky, o.visible_sky, 100, -100 * 2 / std::numbers::pi, 100);
+  up.horizon = !o.horizon.empty();
+  want(down, kSumOpenness, o.negative_openness, 90, -kDegrees, 180);
+  std::vector<Pass> passes;
+  if (up.horizon || !up.wanted.empty()) passes.push_back(std::move(up));
+  if (!down.wanted.empty()) passes.push_back(std::move(down));
+  return passes;
+}
+
+class Terrain {
+ public:
+  Terrain(const ElevationModel& model, const TerrainSettings& settings,
+          const TerrainOutputs& outputs, Executor& executor, const RunOptions& run)
+      : model_(model),
+        settings_(settings),
+        outputs_(outputs),
+        executor_(executor),
+        passes_(make_passes(outputs)),
+        directions_(terrain_directions(model, settings)),
+        progress_(static_cast<std::int64_t>(passes_.size() * directions_.size()), run.progress) {
+    // All memory is taken before an output is touched.
+    const Extent size = {model.heights.width, model.heights.height};
+    auto reserve = [&](TerrainPlane& plane) {
+      plane.resize(size.width, size.height);
+      plane.resize(size.height, size.width);
+    };
+    reserve(heights_);
+    std::size_t planes = 0;
+    for (const Pass& p : passes_) {
+      planes = std::max(planes, p.wanted.size() + (p.horizon ? 1 : 0));
+    }
+    sums_.resize(planes);
+    for (TerrainPlane& plane : sums_) reserve(plane);
+    scratch_.resize(executor.thread_count());
+    bool windows = false;
+    for (const TerrainDirection& d : directions_) {
+      windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
+    }
+    for (TerrainScratch& s : scratch_) s.resize(std::max(size.width, size.height), windows);
+  }
+
+  Status run() {
+    for (const Pass& pass : passes_) {
+      for (const bool transposed : {false, true}) {
+        prepare(pass, transposed);
+        for (const TerrainDirection& direction : directions_) {
+          if (direction.transposed != transposed) continue;
+          sweep(pass, direction);
+          if (!progress_.advance()) {
+            return {StatusCode::kCancelled, "the terrain sweep was cancelled by the caller"};
+          }
+        }
+        for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
+          fold(sums_[i], pass.wanted[i], transposed);
+        }
+      }
+    }
+    return {};
+  }
+
+ private:
+  // The model's heights with margins, relative to its first cell, and sums of zero.
+  void prepare(const Pass& pass, bool transposed) {
+    const Extent size = {model_.heights.width, model_.heights.height};
+    const int columns = transposed ? size.height : size.width;
+    const int rows = transposed ? size.width : size.height;
+    heights_.resize(columns, rows);
+    for (TerrainPlane& plane : sums_) plane.resize(columns, rows);
+    executor_.parallel_for(rows + 2, [&](int row, int) {
+      heights_.fill_row(row - 1, kNoHeight);
+      for (std::size_t i = 0; i < pass.wanted.size(); ++i) sums_[i].fill_row(row - 1, 0.0f);
+    });
+    const double factor = pass.sign * settings_.z_factor;
+    for_tiles(size, executor_, [&](int x0, int y0, int x1, int y1) {
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+          const float height = model_.heights(x, y);
+          if (!has_height(model_, height)) continue;
+          const auto value = static_cast<float>(factor * (double{height} - base_));
+          (transposed ? heights_.row(x)[y] : heights_.row(y)[x]) = value;
+        }
+      }
+    });
+  }
+
+  void sweep(const Pass& pass, const TerrainDirection& direction) {
+    TerrainSweep s = direction.sweep;
+    s.heights = heights_.row(0);
+    s.pitch = heights_.pitch();
+    s.near = direction.near.data();
+    s.near_count = static_cast<int>(direction.near.size());
+    if (!direction.row_offset.empty()) {
+      s.row_offset = direction.row_offset.data();
+      s.row_slope = direction.row_slope.data();
+    }
+    for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
+      s.sums[pass.wanted[i].sum] = sums_[i].row(0);
+    }
+    if (pass.horizon) s.sums[kSumHorizon] = sums_[pass.wanted.size()].row(0);
+    executor_.parallel_for(terrain_blocks(s), [&](int block, int worker) {
+      sweep_terrain_block(s, block, &scratch_[worker]);
+    });
+    if (pass.horizon) {
+      fold(sums_[pass.wanted.size()],
+           {kSumHorizon, outputs_.horizon[direction.index], 0, settings_.azimuths * kDegrees, -90,
+            90},
+           direction.transposed, true);
+    }
+  }
+
+  // Adds sums to an output. The first of the two grids starts it, the second ends it; `whole`: one
+  // is all.
+  void fold(const TerrainPlane& sums, const Wanted& wanted, bool transposed, bool whole = false) {
+    const double factor = wanted.factor / settings_.azimuths;
+    for_tiles(
+        {model_.heights.width, model_.heights.height}, executor_,
+        [&](int x0, int y0, int x1, int y1) {
+          for (int y = y0; y < y1; ++y) {
+            for (int x = x0; x < x1; ++x) {
+              float& out = wanted.view(x, y);
+              if (!has_height(model_, model_.heights(x, y))) {
+                out = std::numeric_limits<float>::quiet_NaN();
+                continue;
+              }
+              const float sum = transposed ? sums.row(x)[y] : sums.row(y)[x];
+              const double start = whole || !transposed ? wanted.start : double{out};
+              const double value = start + factor * sum;
+              const bool last = whole || transposed;
+              out = static_cast<float>(last ? std::clamp(value, wanted.least, wanted.most) : value);
+            }
+          }
+        });
+  }
+
+  const ElevationModel& model_;
+  const TerrainSettings& settings_;
+  const TerrainOutputs& outputs_;
+  Executor& executor_;
+  const std::vector<Pass> passes_;
+  const std::vector<TerrainDirection> directions_;
+  Progress progress_;
+  const double base_ = first_height(model_);
+  TerrainPlane heights_;
+  std::vector<TerrainPlane> sums_;  // in the order of a pass's quantities; the horizon is last
+  std::vector<TerrainScratch> scratch_;
+};
+
+}  // namespace
+
+Status compute_terrain(const ElevationModel& model, const TerrainSettings& settings,
+                       const TerrainOutputs& outputs, const RunOptions& run) {
+  return guarded("the terrain sweep; use a smaller model", [&]() -> Status {
+    if (Status s = check_terrain(model, settings, outputs); !s.ok()) return s;
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    return Terrain(model, settings, outputs, threads.executor(), run).run();
+  });
+}
+
+}  // namespace obscura

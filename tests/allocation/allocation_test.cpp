@@ -6,6 +6,7 @@
 #include "obscura/estimator.h"
 #include "obscura/lighting.h"
 #include "obscura/methods.h"
+#include "obscura/terrain.h"
 #include "obscura/volume.h"
 #include "tests/allocation/failing_allocations.h"
 #include "tests/property/synthetic.h"
@@ -65,6 +66,29 @@ TEST(FailingAllocations, EveryMethod) {
       fail_each([&] { return compute(field, settings, outputs, {.executor = &alone}); },
                 [&] { return all_old(visible); });
     }
+  }
+}
+
+TEST(FailingAllocations, Terrain) {
+  constexpr int kSide = 60;
+  std::vector<float> heights(kSide * kSide), svf(heights.size(), kOld), negative(svf);
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i * 7919 % 101);
+  Alone alone;
+  const RunOptions run{.executor = &alone};
+  ElevationModel model;
+  model.heights = {heights.data(), kSide, kSide};
+  for (const double radius : {20.0, 40.0, 1e300}) {
+    TerrainSettings settings;
+    settings.azimuths = 8;
+    settings.radius = radius;
+    settings.curvature = true;
+    TerrainOutputs outputs;
+    outputs.svf = {svf.data(), kSide, kSide};
+    outputs.negative_openness = {negative.data(), kSide, kSide};
+    fail_each([&] { return compute_terrain(model, settings, outputs, run); },
+              [&] { return all_old(svf) && all_old(negative); });
+    std::fill(svf.begin(), svf.end(), kOld);
+    std::fill(negative.begin(), negative.end(), kOld);
   }
 }
 

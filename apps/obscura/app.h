@@ -34,6 +34,7 @@ void add_info(App& app);
 void add_light(App& app);
 void add_patterns(App& app);
 void add_settings(App& app);
+void add_terrain(App& app);
 void add_volume(App& app);
 
 }  // namespace obscura::app

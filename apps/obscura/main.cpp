@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   add_info(app);
   add_light(app);
   add_volume(app);
+  add_terrain(app);
   add_demo(app);
   add_patterns(app);
   add_settings(app);

@@ -31,6 +31,10 @@ struct ElevationModel {
   ImageView<const float> heights;
   double cell_width = 1, cell_height = 1;  // [1e-4, 1e6] world units, west to east, north to south
   std::optional<float> nodata{};           // cells of this value have no data
+  // None, or one per row in place of cell_width: cells of a geographic grid, which narrow towards
+  // the poles. Lines are then those of the row that they end in, to 1 % of the width: the model is
+  // swept once for each band of rows in which widths differ by less than 2 %.
+  std::span<const double> row_widths{};
 };
 
 struct TerrainSettings {

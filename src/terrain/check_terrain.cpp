@@ -37,7 +37,16 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   }
   if (Status s = check_side("cell_width", model.cell_width); !s.ok()) return s;
   if (Status s = check_side("cell_height", model.cell_height); !s.ok()) return s;
-  const double cell = std::max(model.cell_width, model.cell_height);
+  if (!model.row_widths.empty() &&
+      model.row_widths.size() != static_cast<std::size_t>(heights.height)) {
+    return invalid_input(text("row_widths has ", model.row_widths.size(),
+                              " numbers; it must have one per row, ", heights.height));
+  }
+  double cell = std::max(model.cell_width, model.cell_height);
+  for (const double width : model.row_widths) {
+    if (Status s = check_side("row_widths", width); !s.ok()) return s;
+    cell = std::max(cell, width);
+  }
   if (settings.radius < cell) {
     return invalid_argument(text("radius is ", settings.radius,
                                  "; it must reach the next cell, so be at least ", cell));

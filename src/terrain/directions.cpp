@@ -41,7 +41,7 @@ void bend_rows(int rows, double step, double earth, TerrainDirection* direction)
 
 }  // namespace
 
-std::vector<TerrainDirection> terrain_directions(const ElevationModel& model,
+std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, double cell_width,
                                                  const TerrainSettings& settings) {
   const int width = model.heights.width, height = model.heights.height;
   const double earth = settings.curvature ? kEarthRadius / (1 - settings.refraction)
@@ -51,9 +51,9 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model,
     TerrainDirection& d = directions[k];
     const double azimuth = 2 * std::numbers::pi * k / settings.azimuths;
     // In columns and rows for each unit of the way.
-    double across = std::sin(azimuth) / model.cell_width;
+    double across = std::sin(azimuth) / cell_width;
     double down = -std::cos(azimuth) / model.cell_height;
-    double cell_across = model.cell_width, cell_down = model.cell_height;
+    double cell_across = cell_width, cell_down = model.cell_height;
     d.index = k;
     d.transposed = std::fabs(across) > std::fabs(down) * (1 + 1e-9);
     if (d.transposed) {

@@ -19,8 +19,8 @@ struct TerrainDirection {
   std::vector<float> row_offset, row_slope;
 };
 
-// The directions of all azimuths over a model of this size.
-std::vector<TerrainDirection> terrain_directions(const ElevationModel& model,
+// The directions of all azimuths over a model of this size, whose cells have this width.
+std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, double cell_width,
                                                  const TerrainSettings& settings);
 
 }  // namespace obscura

@@ -49,6 +49,33 @@ std::vector<Pass> make_passes(const TerrainOutputs& o) {
   return passes;
 }
 
+// Rows whose cells are taken to be as wide as each other.
+struct Band {
+  int begin, end;
+  double cell_width;
+};
+
+std::vector<Band> make_bands(const ElevationModel& model) {
+  const int height = model.heights.height;
+  if (model.row_widths.empty()) return {{0, height, model.cell_width}};
+  constexpr double kSpread = 1.02;
+  std::vector<Band> bands;
+  for (int y = 0; y < height;) {
+    double least = model.row_widths[y], most = least;
+    int end = y;
+    for (; end < height; ++end) {
+      const double low = std::min(least, model.row_widths[end]);
+      const double high = std::max(most, model.row_widths[end]);
+      if (high > kSpread * low) break;
+      least = low;
+      most = high;
+    }
+    bands.push_back({y, end, 0.5 * (least + most)});
+    y = end;
+  }
+  return bands;
+}
+
 class Terrain {
  public:
   Terrain(const ElevationModel& model, const TerrainSettings& settings,
@@ -58,8 +85,12 @@ class Terrain {
         outputs_(outputs),
         executor_(executor),
         passes_(make_passes(outputs)),
-        directions_(terrain_directions(model, settings)),
-        progress_(static_cast<std::int64_t>(passes_.size() * directions_.size()), run.progress) {
+        bands_(make_bands(model)),
+        progress_(static_cast<std::int64_t>(passes_.size() * bands_.size() * settings.azimuths),
+                  run.progress) {
+    for (const Band& band : bands_) {
+      directions_.push_back(terrain_directions(model, band.cell_width, settings));
+    }
     // All memory is taken before an output is touched.
     const Extent size = {model.heights.width, model.heights.height};
     auto reserve = [&](TerrainPlane& plane) {
@@ -75,25 +106,19 @@ class Terrain {
     for (TerrainPlane& plane : sums_) reserve(plane);
     scratch_.resize(executor.thread_count());
     bool windows = false;
-    for (const TerrainDirection& d : directions_) {
-      windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
+    for (const auto& directions : directions_) {
+      for (const TerrainDirection& d : directions) {
+        windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
+      }
     }
     for (TerrainScratch& s : scratch_) s.resize(std::max(size.width, size.height), windows);
   }
 
   Status run() {
     for (const Pass& pass : passes_) {
-      for (const bool transposed : {false, true}) {
-        prepare(pass, transposed);
-        for (const TerrainDirection& direction : directions_) {
-          if (direction.transposed != transposed) continue;
-          sweep(pass, direction);
-          if (!progress_.advance()) {
-            return {StatusCode::kCancelled, "the terrain sweep was cancelled by the caller"};
-          }
-        }
-        for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
-          fold(sums_[i], pass.wanted[i], transposed);
+      for (std::size_t b = 0; b < bands_.size(); ++b) {
+        if (!run(pass, bands_[b], directions_[b])) {
+          return {StatusCode::kCancelled, "the terrain sweep was cancelled by the caller"};
         }
       }
     }
@@ -101,6 +126,21 @@ class Terrain {
   }
 
  private:
+  bool run(const Pass& pass, const Band& band, const std::vector<TerrainDirection>& directions) {
+    for (const bool transposed : {false, true}) {
+      prepare(pass, transposed);
+      for (const TerrainDirection& direction : directions) {
+        if (direction.transposed != transposed) continue;
+        sweep(pass, band, direction);
+        if (!progress_.advance()) return false;
+      }
+      for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
+        fold(sums_[i], pass.wanted[i], band, transposed);
+      }
+    }
+    return true;
+  }
+
   // The model's heights with margins, relative to its first cell, and sums of zero.
   void prepare(const Pass& pass, bool transposed) {
     const Extent size = {model_.heights.width, model_.heights.height};
@@ -125,7 +165,7 @@ class Terrain {
     });
   }
 
-  void sweep(const Pass& pass, const TerrainDirection& direction) {
+  void sweep(const Pass& pass, const Band& band, const TerrainDirection& direction) {
     TerrainSweep s = direction.sweep;
     s.heights = heights_.row(0);
     s.pitch = heights_.pitch();
@@ -146,32 +186,32 @@ class Terrain {
       fold(sums_[pass.wanted.size()],
            {kSumHorizon, outputs_.horizon[direction.index], 0, settings_.azimuths * kDegrees, -90,
             90},
-           direction.transposed, true);
+           band, direction.transposed, true);
     }
   }
 
   // Adds sums to an output. The first of the two grids starts it, the second ends it; `whole`: one
   // is all.
-  void fold(const TerrainPlane& sums, const Wanted& wanted, bool transposed, bool whole = false) {
+  void fold(const TerrainPlane& sums, const Wanted& wanted, const Band& band, bool transposed,
+            bool whole = false) {
     const double factor = wanted.factor / settings_.azimuths;
-    for_tiles(
-        {model_.heights.width, model_.heights.height}, executor_,
-        [&](int x0, int y0, int x1, int y1) {
-          for (int y = y0; y < y1; ++y) {
-            for (int x = x0; x < x1; ++x) {
-              float& out = wanted.view(x, y);
-              if (!has_height(model_, model_.heights(x, y))) {
-                out = std::numeric_limits<float>::quiet_NaN();
-                continue;
-              }
-              const float sum = transposed ? sums.row(x)[y] : sums.row(y)[x];
-              const double start = whole || !transposed ? wanted.start : double{out};
-              const double value = start + factor * sum;
-              const bool last = whole || transposed;
-              out = static_cast<float>(last ? std::clamp(value, wanted.least, wanted.most) : value);
-            }
-          }
-        });
+    const bool first = whole || !transposed, last = whole || transposed;
+    auto fold_row = [&](int y, int x0, int x1) {
+      for (int x = x0; x < x1; ++x) {
+        float& out = wanted.view(x, y);
+        if (!has_height(model_, model_.heights(x, y))) {
+          out = std::numeric_limits<float>::quiet_NaN();
+          continue;
+        }
+        const float sum = transposed ? sums.row(x)[y] : sums.row(y)[x];
+        const double value = (first ? wanted.start : double{out}) + factor * sum;
+        out = static_cast<float>(last ? std::clamp(value, wanted.least, wanted.most) : value);
+      }
+    };
+    for_tiles({model_.heights.width, band.end - band.begin}, executor_,
+              [&](int x0, int y0, int x1, int y1) {
+                for (int y = y0; y < y1; ++y) fold_row(band.begin + y, x0, x1);
+              });
   }
 
   const ElevationModel& model_;
@@ -179,7 +219,8 @@ class Terrain {
   const TerrainOutputs& outputs_;
   Executor& executor_;
   const std::vector<Pass> passes_;
-  const std::vector<TerrainDirection> directions_;
+  const std::vector<Band> bands_;
+  std::vector<std::vector<TerrainDirection>> directions_;  // by band
   Progress progress_;
   const double base_ = first_height(model_);
   TerrainPlane heights_;

@@ -1,0 +1,26 @@
+// In place of gdal*.cpp where the build has no GDAL.
+#include "fmt/format.h"
+#include "io/rasters/gdal.h"
+
+namespace obscura::tools {
+namespace {
+
+Status absent(const std::string& path) {
+  return unsupported(
+      fmt::format("{}: this build has no GDAL and knows .png, .exr, .pfm and .npy; build with "
+                  "OBSCURA_WITH_GDAL=ON",
+                  path));
+}
+
+}  // namespace
+
+bool has_gdal() { return false; }
+
+Status read_gdal(const std::string& path, const RasterOptions&, Raster*) { return absent(path); }
+
+Status write_geotiff(const std::string& path, const Raster&, const Image&,
+                     const RasterWriteOptions&) {
+  return absent(path);
+}
+
+}  // namespace obscura::tools

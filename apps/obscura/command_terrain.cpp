@@ -15,6 +15,9 @@
 
 namespace obscura::app {
 
+// Defaults for a field's usual work.
+enum class TerrainPreset { kNone, kArchaeology, kClimate, kSolar, kCity };
+
 // A distance in metres or in cells.
 struct RadiusSpec {
   double value = std::numeric_limits<double>::infinity();
@@ -23,6 +26,7 @@ struct RadiusSpec {
 
 // As the command names the library's settings.
 struct TerrainOptions {
+  TerrainPreset preset = TerrainPreset::kNone;
   TerrainSettings terrain{};
   RadiusSpec radius{};
   std::optional<double> z_factor{}, cell_size{};
@@ -32,6 +36,10 @@ struct TerrainOptions {
 }  // namespace obscura::app
 
 namespace obscura {
+template <>
+struct EnumNames<app::TerrainPreset> {
+  static constexpr const char* names[] = {"none", "archaeology", "climate", "solar", "city"};
+};
 template <>
 struct SettingText<app::RadiusSpec> {
   static constexpr const char* form = "inf, metres, or cells as in 20px";
@@ -50,6 +58,7 @@ namespace app {
 
 template <FieldsOf<TerrainOptions> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
+  v(s.preset, Field{"preset", "", {}, "Defaults for a field's usual work; docs/terrain.md."});
   visit_fields(s.terrain, [&](auto& value, const Field& field) {
     const std::string_view name = field.name;
     if (name == "radius") {
@@ -71,7 +80,7 @@ void visit_fields(Self& s, Visitor&& v) {
 namespace {
 
 struct TerrainCommand {
-  std::string input, output, quantity = "svf", picture, json;
+  std::string input, output, quantity, picture, json;
   OptionTable table;
   int threads = 0, band = 0;
   bool network = false, overviews = false;
@@ -79,18 +88,49 @@ struct TerrainCommand {
 
 struct TerrainRequest {
   TerrainOptions options;
+  std::string quantity;
   TerrainQuantities quantities;
 };
 
+// The preset's settings, before those that are given; returns its quantities.
+std::string apply_preset(TerrainPreset preset, TerrainOptions* o) {
+  TerrainSettings& s = o->terrain;
+  switch (preset) {
+    case TerrainPreset::kArchaeology:
+      // What the Relief Visualization Toolbox does by default: its 315 degrees count the other way.
+      o->radius = {10, true};
+      s.asvf_direction = 45;
+      return "svf,asvf,openness,negative-openness,local-dominance";
+    case TerrainPreset::kClimate:
+      s.azimuths = 32;
+      s.curvature = true;
+      return "svf-normal,svf,visible-sky";
+    case TerrainPreset::kSolar:
+      s.azimuths = 72;
+      s.curvature = true;
+      s.refraction = 0.13;
+      return "horizon,svf-normal";
+    case TerrainPreset::kCity:
+      s.azimuths = 64;
+      return "svf,svf-cosine";
+    case TerrainPreset::kNone:
+      break;
+  }
+  return "svf";
+}
+
 Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
   if (Status s = c.table.read(&p->options); !s.ok()) return s;
+  const std::string usual = apply_preset(p->options.preset, &p->options);
+  if (Status s = c.table.read(&p->options); !s.ok()) return s;
+  p->quantity = c.quantity.empty() ? usual : c.quantity;
   if (Status s = validate_ranges(p->options.terrain); !s.ok()) {
     return {s.code(), "--" + s.message()};
   }
   if (c.output.empty() && c.picture.empty()) {
     return invalid_argument("nothing to write; give --output, --picture or both");
   }
-  if (Status s = TerrainQuantities::parse(c.quantity, &p->quantities); !s.ok()) return s;
+  if (Status s = TerrainQuantities::parse(p->quantity, &p->quantities); !s.ok()) return s;
   if (p->options.terrain.refraction > 0 && !p->options.terrain.curvature) {
     return invalid_argument("--refraction needs --curvature");
   }
@@ -100,7 +140,7 @@ Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
     if (tools::file_ending(c.output) == ".png" && !p->quantities.only_shares()) {
       return invalid_argument(
           fmt::format("--output {} holds shares in [0, 1]; write {} as .tif, .exr, .npy or .pfm",
-                      c.output, c.quantity));
+                      c.output, p->quantity));
     }
   }
   if (!c.picture.empty() && tools::file_ending(c.picture) != ".png") {
@@ -110,9 +150,9 @@ Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
 }
 
 // What a file keeps of how it came about.
-std::string settings_text(const TerrainCommand& c, const TerrainOptions& options) {
-  std::string text = "quantity=" + c.quantity;
-  visit_fields(options, [&](const auto& value, const Field& field) {
+std::string settings_text(const TerrainRequest& p) {
+  std::string text = "quantity=" + p.quantity;
+  visit_fields(p.options, [&](const auto& value, const Field& field) {
     const std::string written = write_setting(value);
     if (!written.empty()) text += fmt::format(" {}={}", option_name(field.name), written);
   });
@@ -162,7 +202,7 @@ Status run_terrain(const TerrainCommand& c, bool quiet) {
     wanted.image().channels.resize(channels);
     tools::RasterWriteOptions write;
     write.overviews = c.overviews;
-    write.settings = settings_text(c, p.options);
+    write.settings = settings_text(p);
     write.units = wanted.units();
     if (Status s = tools::write_raster(c.output, raster, wanted.image(), write); !s.ok()) return s;
   }
@@ -177,12 +217,12 @@ Status run_terrain(const TerrainCommand& c, bool quiet) {
   }
   tools::Report report;
   report.settings["input"] = c.input;
-  report.settings["quantity"] = c.quantity;
+  report.settings["quantity"] = p.quantity;
   visit_fields(p.options, [&](const auto& value, const Field& field) {
     report.settings[field.name] = write_setting(value);
   });
-  report.add(c.quantity, "time to load", 1e3 * loaded, "ms");
-  report.add(c.quantity, "time to compute", 1e3 * (computed - loaded), "ms");
+  report.add(p.quantity, "time to load", 1e3 * loaded, "ms");
+  report.add(p.quantity, "time to compute", 1e3 * (computed - loaded), "ms");
   return write_json(report, c.json);
 }
 
@@ -205,7 +245,8 @@ void add_terrain(App& app) {
       ->type_name("FILE");
   command
       ->add_option("--quantity", c->quantity,
-                   "Comma-separated results: " + TerrainQuantities::all_names() + " [default svf]")
+                   "Comma-separated results: " + TerrainQuantities::all_names() +
+                       " [default svf, or the preset's]")
       ->type_name("LIST");
   command
       ->add_option("--picture", c->picture,

@@ -20,6 +20,8 @@ constexpr Quantity kQuantities[] = {
     {"openness", "degree", &TerrainOutputs::openness},
     {"negative-openness", "degree", &TerrainOutputs::negative_openness},
     {"visible-sky", "percent", &TerrainOutputs::visible_sky},
+    {"asvf", "", &TerrainOutputs::asvf},
+    {"local-dominance", "ratio", &TerrainOutputs::local_dominance},
     {"horizon", "degree", nullptr},
 };
 

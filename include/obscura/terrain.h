@@ -37,12 +37,24 @@ struct ElevationModel {
   std::span<const double> row_widths{};
 };
 
+// How much of the sky's light comes from the side of asvf_direction: the least weight of an azimuth
+// is 0.4 or 0.1, and weights follow the 4th or 8th power of the cosine of half the angle between.
+enum class Anisotropy { kLow, kHigh };
+template <>
+struct EnumNames<Anisotropy> {
+  static constexpr const char* names[] = {"low", "high"};
+};
+
 struct TerrainSettings {
   int azimuths = 16;
   double radius = std::numeric_limits<double>::infinity();
   double z_factor = 1;
   bool curvature = false;
   double refraction = 0;
+  double asvf_direction = 315;
+  Anisotropy asvf_level = Anisotropy::kLow;
+  int dominance_from = 10, dominance_to = 20;
+  double observer_height = 1.7;
 };
 template <FieldsOf<TerrainSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
@@ -62,6 +74,17 @@ void visit_fields(Self& s, Visitor&& v) {
                         {0, 1, false, true},
                         "Of light by air, with curvature: the earth's radius grows by "
                         "1 / (1 - refraction); 0.13 is usual."});
+  v(s.asvf_direction, Field{"asvf_direction",
+                            "degrees",
+                            {0, 360},
+                            "Azimuth from which asvf has most light, clockwise from north."});
+  v(s.asvf_level, Field{"asvf_level", "", {}, "How much of asvf's light comes from there."});
+  v(s.dominance_from, Field{"dominance_from", "cells", closed(1, 60),
+                            "Inner radius of the ring that local dominance looks at."});
+  v(s.dominance_to, Field{"dominance_to", "cells", closed(1, 60), "Its outer radius."});
+  v(s.observer_height,
+    Field{
+        "observer_height", "world units", {1e-3, 1e6}, "Height from which local dominance looks."});
 }
 
 // Caller-owned results, each as large as the model; those that are empty are not computed. Cells
@@ -82,6 +105,13 @@ struct TerrainOutputs {
   ImageView<float> negative_openness;
   // Share of the elevation angles that are open: 100 mean(1 - gamma+ / 90). In [0, 100] percent.
   ImageView<float> visible_sky;
+  // As svf, with a weight per azimuth phi: least + (1 - least) cos^n((phi - asvf_direction) / 2),
+  // that is more light from one side (Relief Visualization Toolbox). In [0, 1].
+  ImageView<float> asvf;
+  // How far a viewer at observer_height looks down on the ring from dominance_from to dominance_to
+  // (Hesse 2016; Relief Visualization Toolbox): sum of max(0, z + h - z') (2 d + 1) / d over its
+  // cells, every 15 degrees and every cell's length d, divided by that of flat ground, 1.
+  ImageView<float> local_dominance;
   // None, or one image per azimuth, in their order: gamma. [-90, 90] degrees.
   std::span<const ImageView<float>> horizon{};
 };

@@ -28,6 +28,11 @@ Status check_size(const char* name, const ImageView<float>& view, const Elevatio
 Status check_terrain(const ElevationModel& model, const TerrainSettings& settings,
                      const TerrainOutputs& outputs) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
+  if (settings.dominance_to < settings.dominance_from) {
+    return invalid_argument(text("dominance_to is ", settings.dominance_to,
+                                 "; it must not be below dominance_from, ",
+                                 settings.dominance_from));
+  }
   const auto& heights = model.heights;
   if (heights.empty()) return invalid_input("heights are missing");
   if (heights.width < 1 || heights.height < 1 || heights.width > kMostCells ||
@@ -60,7 +65,9 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
                          {"svf_cosine", outputs.svf_cosine},
                          {"openness", outputs.openness},
                          {"negative_openness", outputs.negative_openness},
-                         {"visible_sky", outputs.visible_sky}};
+                         {"visible_sky", outputs.visible_sky},
+                         {"asvf", outputs.asvf},
+                         {"local_dominance", outputs.local_dominance}};
   bool any = !outputs.horizon.empty();
   for (const Named& v : views) {
     any = any || !v.view.empty();

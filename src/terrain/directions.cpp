@@ -39,6 +39,22 @@ void bend_rows(int rows, double step, double earth, TerrainDirection* direction)
   }
 }
 
+// Weights of the azimuths in the anisotropic sky-view factor; their mean is 1.
+std::vector<double> anisotropic_weights(const TerrainSettings& settings) {
+  const bool high = settings.asvf_level == Anisotropy::kHigh;
+  const double least = high ? 0.1 : 0.4, power = high ? 8 : 4;
+  std::vector<double> weights(settings.azimuths);
+  double sum = 0;
+  for (int k = 0; k < settings.azimuths; ++k) {
+    const double angle = 2 * std::numbers::pi * k / settings.azimuths -
+                         settings.asvf_direction * std::numbers::pi / 180;
+    weights[k] = least + (1 - least) * std::pow(std::cos(0.5 * angle), power);
+    sum += weights[k];
+  }
+  for (double& w : weights) w *= settings.azimuths / sum;
+  return weights;
+}
+
 }  // namespace
 
 std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, double cell_width,
@@ -46,6 +62,7 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, do
   const int width = model.heights.width, height = model.heights.height;
   const double earth = settings.curvature ? kEarthRadius / (1 - settings.refraction)
                                           : std::numeric_limits<double>::infinity();
+  const std::vector<double> weights = anisotropic_weights(settings);
   std::vector<TerrainDirection> directions(settings.azimuths);
   for (int k = 0; k < settings.azimuths; ++k) {
     TerrainDirection& d = directions[k];
@@ -55,6 +72,7 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, do
     double down = -std::cos(azimuth) / model.cell_height;
     double cell_across = cell_width, cell_down = model.cell_height;
     d.index = k;
+    d.sweep.weight = static_cast<float>(weights[k]);
     d.transposed = std::fabs(across) > std::fabs(down) * (1 + 1e-9);
     if (d.transposed) {
       std::swap(across, down);

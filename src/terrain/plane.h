@@ -38,11 +38,13 @@ class TerrainPlane {
   std::vector<float> values_;
 };
 
+inline constexpr int kTerrainTile = 64;
+
 // Calls body(x0, y0, x1, y1) for tiles of an image, on threads. In a tile, an image and a
 // transposed one are both read from the cache.
 template <class Body>
 void for_tiles(Extent size, Executor& executor, Body&& body) {
-  constexpr int kTile = 64;
+  constexpr int kTile = kTerrainTile;
   const int across = (size.width + kTile - 1) / kTile, down = (size.height + kTile - 1) / kTile;
   executor.parallel_for(down, [&](int row, int) {
     const int y0 = row * kTile, y1 = std::min(size.height, y0 + kTile);

@@ -41,6 +41,7 @@ enum TerrainSum {
   kSumSvfCosine,
   kSumOpenness,
   kSumVisibleSky,
+  kSumAsvf,
   kSumHorizon,  // not a sum: the horizon of this azimuth alone
   kTerrainSums,
 };
@@ -63,6 +64,7 @@ struct TerrainSweep {
   // and 1 / the sides.
   float towards_column = 0, towards_row = 0;
   float inverse_width = 1, inverse_height = 1;
+  float weight = 1;                         // of this azimuth in kSumAsvf
   std::array<float*, kTerrainSums> sums{};  // of row 0, column 0; null: not wanted
 };
 

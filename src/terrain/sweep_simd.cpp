@@ -242,6 +242,7 @@ class Block {
       slope = hn::IfThenZeroElse(hn::Lt(slope, hn::Set(d, kNoSlope)), slope);
       const Horizon<D> above(d, hn::Max(slope, hn::Zero(d)));
       if (s_.sums[kSumSvf]) add(kSumSvf, i, above.OpenSky());
+      if (s_.sums[kSumAsvf]) add(kSumAsvf, i, hn::Mul(hn::Set(d, s_.weight), above.OpenSky()));
       if (s_.sums[kSumSvfCosine]) add(kSumSvfCosine, i, above.OpenCosine());
       if (s_.sums[kSumVisibleSky]) add(kSumVisibleSky, i, above.Angle());
       if (s_.sums[kSumOpenness]) add(kSumOpenness, i, FastAtan(d, slope));

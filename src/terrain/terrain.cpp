@@ -9,6 +9,7 @@
 #include "core/run_threads.h"
 #include "terrain/check_terrain.h"
 #include "terrain/directions.h"
+#include "terrain/local_dominance.h"
 #include "terrain/plane.h"
 
 namespace obscura {
@@ -27,11 +28,14 @@ struct Wanted {
 struct Pass {
   float sign = 1;
   std::vector<Wanted> wanted;
-  bool horizon = false;
+  bool horizon = false, dominance = false;
+
+  bool sweeps() const { return horizon || !wanted.empty(); }
 };
 
 std::vector<Pass> make_passes(const TerrainOutputs& o) {
-  Pass up, down{-1, {}, false};
+  Pass up, down;
+  down.sign = -1;
   auto want = [](Pass& pass, TerrainSum sum, const ImageView<float>& view, double start,
                  double factor, double most) {
     if (!view.empty()) pass.wanted.push_back({sum, view, start, factor, 0, most});
@@ -41,10 +45,12 @@ std::vector<Pass> make_passes(const TerrainOutputs& o) {
   want(up, kSumSvfCosine, o.svf_cosine, 0, 1, 1);
   want(up, kSumOpenness, o.openness, 90, -kDegrees, 180);
   want(up, kSumVisibleSky, o.visible_sky, 100, -100 * 2 / std::numbers::pi, 100);
+  want(up, kSumAsvf, o.asvf, 0, 1, 1);
   up.horizon = !o.horizon.empty();
+  up.dominance = !o.local_dominance.empty();
   want(down, kSumOpenness, o.negative_openness, 90, -kDegrees, 180);
   std::vector<Pass> passes;
-  if (up.horizon || !up.wanted.empty()) passes.push_back(std::move(up));
+  if (up.dominance || up.sweeps()) passes.push_back(std::move(up));
   if (!down.wanted.empty()) passes.push_back(std::move(down));
   return passes;
 }
@@ -129,9 +135,10 @@ class Terrain {
   bool run(const Pass& pass, const Band& band, const std::vector<TerrainDirection>& directions) {
     for (const bool transposed : {false, true}) {
       prepare(pass, transposed);
+      if (pass.dominance && !transposed) find_dominance(band);
       for (const TerrainDirection& direction : directions) {
         if (direction.transposed != transposed) continue;
-        sweep(pass, band, direction);
+        if (pass.sweeps()) sweep(pass, band, direction);
         if (!progress_.advance()) return false;
       }
       for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
@@ -190,6 +197,20 @@ class Terrain {
     }
   }
 
+  void find_dominance(const Band& band) {
+    const ImageView<float>& out = outputs_.local_dominance;
+    for_tiles({out.width, band.end - band.begin}, executor_, [&](int x0, int y0, int x1, int y1) {
+      for (int y = band.begin + y0; y < band.begin + y1; ++y) {
+        float dominance[kTerrainTile];
+        ring_.row(heights_, y, x0, x1, dominance);
+        for (int x = x0; x < x1; ++x) {
+          const bool has = has_height(model_, model_.heights(x, y));
+          out(x, y) = has ? dominance[x - x0] : std::numeric_limits<float>::quiet_NaN();
+        }
+      }
+    });
+  }
+
   // Adds sums to an output. The first of the two grids starts it, the second ends it; `whole`: one
   // is all.
   void fold(const TerrainPlane& sums, const Wanted& wanted, const Band& band, bool transposed,
@@ -221,6 +242,7 @@ class Terrain {
   const std::vector<Pass> passes_;
   const std::vector<Band> bands_;
   std::vector<std::vector<TerrainDirection>> directions_;  // by band
+  const DominanceRing ring_{settings_};
   Progress progress_;
   const double base_ = first_height(model_);
   TerrainPlane heights_;

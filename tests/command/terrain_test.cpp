@@ -106,6 +106,30 @@ TEST_F(TerrainCommand, SaysWhatIsWrong) {
   expect_success(line + "-o x.pfm --nodata -9999 --radius 10px -q");
 }
 
+TEST_F(TerrainCommand, PresetsGiveDefaults) {
+  tools::Image heights(60, 50);
+  auto& z = heights.add("Y");
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = float(i % 11) + float(i / 240);
+  ASSERT_TRUE(tools::write_image(path("in.pfm"), heights).ok());
+  auto result = [&](const std::string& more) {
+    expect_success("terrain in.pfm --cell-size 2 -q -o out.exr " + more);
+    tools::Image image;
+    EXPECT_TRUE(tools::read_image(path("out.exr"), &image).ok());
+    return image;
+  };
+  const tools::Image a = result("--preset archaeology");
+  EXPECT_EQ(a.channels.size(), 5u);
+  const tools::Image b =
+      result("--quantity svf,asvf --radius 20 --azimuths 16 --asvf-direction 45");
+  EXPECT_TRUE(same(a.find("asvf")->values, b.find("asvf")->values));
+  EXPECT_TRUE(same(a.find("svf")->values, b.find("svf")->values));
+  EXPECT_EQ(result("--preset solar").channels.size(), 73u);
+  EXPECT_EQ(result("--preset solar --azimuths 8 --quantity horizon").channels.size(), 8u);
+  EXPECT_NE(result("--preset climate").find("visible-sky"), nullptr);
+  EXPECT_NE(result("--preset city").find("svf-cosine"), nullptr);
+  expect_failure("terrain in.pfm --cell-size 2 -o x.exr --preset war", 2, "--preset is 'war'");
+}
+
 TEST_F(TerrainCommand, ReadsRastersWithTheirNodata) {
   if (!tools::has_gdal()) GTEST_SKIP() << "this build has no GDAL";
   write("grid.asc", grid());
@@ -193,7 +217,7 @@ TEST_F(TerrainCommand, KeepsWhereARasterLies) {
     EXPECT_EQ(in.cell_height, out.cell_height);
     EXPECT_TRUE(same(out.heights, svf_of("in.vrt")));
     const std::string bytes = read_file(path("out.tif"));
-    for (const char* part : {"WHO", "-9999", "quantity=svf,openness azimuths=16"}) {
+    for (const char* part : {"WHO", "-9999", "quantity=svf,openness preset=none azimuths=16"}) {
       EXPECT_NE(bytes.find(part), std::string::npos) << part;
     }
   }

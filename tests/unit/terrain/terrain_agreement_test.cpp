@@ -19,7 +19,13 @@ struct Quantities {
     auto view = [&](std::vector<float>& v) {
       return ImageView<float>(v.data(), m.width, m.height);
     };
-    return {view(svf), view(svf_normal), view(svf_cosine), view(openness), {}, view(visible), {}};
+    TerrainOutputs o;
+    o.svf = view(svf);
+    o.svf_normal = view(svf_normal);
+    o.svf_cosine = view(svf_cosine);
+    o.openness = view(openness);
+    o.visible_sky = view(visible);
+    return o;
   }
   std::vector<float> svf, svf_normal, svf_cosine, openness, visible;
 };

@@ -23,13 +23,14 @@ struct Result {
   TerrainOutputs outputs() {
     const int height = int(svf.size()) / width;
     auto view = [&](std::vector<float>& v) { return ImageView<float>(v.data(), width, height); };
-    return {view(svf),
-            view(svf_normal),
-            view(svf_cosine),
-            view(openness),
-            view(negative),
-            view(visible),
-            {}};
+    TerrainOutputs o;
+    o.svf = view(svf);
+    o.svf_normal = view(svf_normal);
+    o.svf_cosine = view(svf_cosine);
+    o.openness = view(openness);
+    o.negative_openness = view(negative);
+    o.visible_sky = view(visible);
+    return o;
   }
   std::size_t at(int x, int y) const { return std::size_t(y) * width + x; }
 

@@ -67,6 +67,7 @@ Status run_ao(const AoCommand& c, bool quiet) {
   }
   const double computed = watch.seconds();
 
+  images.image().occluder = occluder_text(settings, field);
   tools::WriteOptions write;
   write.half = c.half;
   if (c.keep_channels) {

@@ -85,6 +85,14 @@ Status run_compare(const CompareCommand& c) {
   }
   tools::Report report;
   report.settings = {{"image", c.image}, {"reference", c.reference}, {"mask", c.mask}};
+  if (!a.occluder.empty()) report.settings["image_occluder"] = a.occluder;
+  if (!b.occluder.empty()) report.settings["reference_occluder"] = b.occluder;
+  if (!a.occluder.empty() && !b.occluder.empty() && a.occluder != b.occluder) {
+    fmt::print(stderr,
+               "obscura: note: two models of matter: the image's occluder is {}, the "
+               "reference's {}\n",
+               a.occluder, b.occluder);
+  }
   for (const auto& [i, j] : pairs) {
     tools::Comparison r;
     if (Status s = tools::compare(a.view(i), b.view(j), mask, &r); !s.ok()) return s;

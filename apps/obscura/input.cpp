@@ -50,7 +50,7 @@ Status InputOptions::load(const LayerNeeds& needs, int threads, LoadedInput* inp
   if (Status s = table_.refuse_others(kImages, "a depth image"); !s.ok()) return s;
   tools::DepthFileOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
-  options.layers = needs.layers;
+  options.layers = needs.given ? static_cast<int>(Occluder::kLayersRange.max) : needs.layers;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
   return tools::load_depth_input(path_, options, &input->rendering.gbuffer);
 }

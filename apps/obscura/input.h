@@ -21,6 +21,7 @@ struct LoadedInput {
 struct LayerNeeds {
   bool back_depth = false;
   int layers = 0;
+  bool given = false;  // whatever layers a file has
 };
 
 // INPUT and the options that say what it is: a depth image, a mesh or a procedural scene.

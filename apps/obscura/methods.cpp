@@ -86,8 +86,25 @@ LayerNeeds layer_needs(const AnySettings& settings) {
     if constexpr (requires { s.occluder; }) {
       needs.back_depth = s.occluder.kind == OccluderKind::kBackDepth;
       needs.layers = s.occluder.kind == OccluderKind::kLayers ? s.occluder.layers : 0;
+      needs.given = s.occluder.kind == OccluderKind::kAuto;
     }
     return needs;
+  });
+}
+
+std::string occluder_text(const AnySettings& settings, const DepthField& field) {
+  return visit_settings(settings, [&](const auto& s) -> std::string {
+    if constexpr (requires { s.occluder; }) {
+      using Info = MethodInfo<std::remove_cvref_t<decltype(s)>>;
+      const std::string text = write_setting(s.occluder);
+      if (s.occluder.kind != OccluderKind::kAuto) return text;
+      if constexpr (requires { Info::takes_layers; }) {
+        if (Info::takes_layers && !field.layers.empty()) return text + ", from layers";
+      }
+      const bool given = !field.back_depth.empty() || !field.layers.empty();
+      return text + (given ? ", from back depth" : ", from widths");
+    }
+    return {};
   });
 }
 

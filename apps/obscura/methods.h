@@ -49,6 +49,10 @@ class MethodOptions {
   OptionTable table_;
 };
 
+// What to write of the occluder into a result: the setting, and what `auto` found; "" where a
+// method has none.
+std::string occluder_text(const AnySettings& settings, const DepthField& field);
+
 // What the method reads beside depth and normals.
 LayerNeeds layer_needs(const AnySettings& settings);
 

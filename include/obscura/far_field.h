@@ -52,7 +52,7 @@ struct OBSCURA_API SettingText<NearStep> {
 // does not depend on the radius. Lines scanned in K directions leave per interval the highest
 // geometry as seen at two slopes; each receiver reads their averages over its azimuthal sector.
 // Direct samples serve the first one and a half intervals. Takes any falloff, and the occluders
-// solid, thickness and back-depth.
+// auto, solid, thickness and back-depth.
 struct FarFieldSettings {
   Falloff falloff{};
   Occluder occluder{};
@@ -92,7 +92,11 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.receiver_slope,
     Field{"receiver_slope", "", closed(-1, 1),
           "Slope of the second line of sight to an interval: 1, or -1 as published."});
-  v(s.near_step, Field{"near_step", "pixels", {}, "Distance between samples near the pixel."});
+  v(s.near_step, Field{"near_step",
+                       "pixels",
+                       {},
+                       "Distance between samples near the pixel, with solid occluders; others are "
+                       "sampled row by row."});
   v(s.near_field, Field{"near_field", "", {}, "Sample the pixel's surroundings directly, too."});
   v(s.separable, Field{"separable", "pixels", closed(1, 3),
                        "3: each pixel of a 3x3 group evaluates a ninth of the directions, whose "

@@ -60,7 +60,7 @@ void visit_fields(Self& s, Visitor&& v) {
   v(s.offset_px, Field{"offset_px", "pixels", closed(0, 64),
                        "Distance from the surface at which rays start: towards the camera for "
                        "solid occluders, along the normal for others. 0 chooses 0.001 for solid, 3 "
-                       "for thickness, 1 for back-depth and layers."});
+                       "for thickness, 1 for others."});
   v(s.seed, Field{"seed", "", anything(), "Seed of the random numbers."});
 }
 template <>

@@ -23,6 +23,9 @@ struct PixelWindow {
   bool operator==(const PixelWindow&) const = default;
 };
 
+// Holds Image::occluder.
+inline constexpr const char* kOccluderAttribute = "obscuraOccluder";
+
 // The header of an OpenEXR file (its first part).
 struct ExrHeader {
   struct Channel {
@@ -36,6 +39,7 @@ struct ExrHeader {
   PixelWindow display_window, data_window;
   std::vector<Channel> channels;
   std::optional<Matrix> world_to_camera, world_to_ndc;
+  std::string occluder;                 // of the attribute kOccluderAttribute
   std::vector<std::string> attributes;  // names of all others
   std::shared_ptr<const void> native;   // OpenEXR's own, for write_exr to pass on
 

@@ -3,6 +3,7 @@
 #include <ImfInputPart.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfPartType.h>
+#include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 
 #include <algorithm>
@@ -57,6 +58,8 @@ void fill_header(const Imf::Header& native, ExrHeader* header) {
   };
   header->world_to_camera = matrix("worldToCamera");
   header->world_to_ndc = matrix("worldToNDC");
+  const auto* occluder = native.findTypedAttribute<Imf::StringAttribute>(kOccluderAttribute);
+  header->occluder = occluder ? occluder->value() : "";
   header->attributes.clear();
   for (auto it = native.begin(); it != native.end(); ++it) header->attributes.push_back(it.name());
   header->native = std::make_shared<Imf::Header>(native);
@@ -149,6 +152,7 @@ Status read_exr(const std::string& path, const std::vector<std::string>& wanted,
     if (Status s = open_exr(path, header, &file); !s.ok()) return s;
     const PixelWindow& w = header->data_window;
     Image result(w.width(), w.height());
+    result.occluder = header->occluder;
     for (const ExrHeader::Channel& c : header->channels) {
       const bool named = std::find(wanted.begin(), wanted.end(), c.name) != wanted.end();
       if (named && c.subsampled) {

@@ -5,6 +5,7 @@
 #include <ImfInputPart.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 
 #include <cerrno>
 #include <cstdint>
@@ -176,6 +177,9 @@ Status write_exr(const std::string& path, const Image& image, const ExrWriteOpti
   }
   add_matrix("worldToCamera", options.world_to_camera, &header);
   add_matrix("worldToNDC", options.world_to_ndc, &header);
+  if (!image.occluder.empty()) {
+    header.insert(kOccluderAttribute, Imf::StringAttribute(image.occluder));
+  }
   // Every reader takes ZIP, by blocks of 16 rows, which several threads share.
   header.compression() = Imf::ZIP_COMPRESSION;
 

@@ -17,6 +17,9 @@ struct Image {
 
   int width = 0, height = 0;
   std::vector<Channel> channels;
+  // The model of matter behind a result ("auto, from widths"); empty: not said. EXR files keep it
+  // as the attribute obscuraOccluder.
+  std::string occluder;
 
   Image() = default;
   Image(int w, int h) : width(w), height(h) {}

@@ -44,8 +44,9 @@ std::string one_of(std::span<const char* const> names) {
 }
 
 bool SettingText<Occluder>::parse(std::string_view given, Occluder* value) {
-  if (given == "solid" || given == "back-depth") {
-    *value = given == "solid" ? Occluder::solid() : Occluder::back_depth();
+  for (const Occluder& plain : {Occluder::solid(), Occluder::back_depth(), Occluder::automatic()}) {
+    if (given != enum_name(plain.kind)) continue;
+    *value = plain;
     return true;
   }
   const auto colon = given.find(':');
@@ -68,7 +69,7 @@ bool SettingText<Occluder>::parse(std::string_view given, Occluder* value) {
 }
 
 std::string SettingText<Occluder>::form() {
-  return text("solid, thickness:T with T in ", to_string(Occluder::kThicknessRange),
+  return text("auto, solid, thickness:T with T in ", to_string(Occluder::kThicknessRange),
               ", back-depth or layers:K with K in ", to_string(Occluder::kLayersRange));
 }
 
@@ -80,6 +81,7 @@ std::string SettingText<Occluder>::write(const Occluder& value) {
       return text("layers:", value.layers);
     case OccluderKind::kSolid:
     case OccluderKind::kBackDepth:
+    case OccluderKind::kAuto:
       break;
   }
   return enum_name(value.kind);

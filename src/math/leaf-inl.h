@@ -15,6 +15,7 @@
 #include "hwy/highway.h"
 #include "math/fast-inl.h"
 #include "math/leaf_cpp.h"
+#include "math/spread_bits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
@@ -79,6 +80,8 @@ LEAF(Int) leaf_and(Int a, Int b) { return hn::And(a, b); }
 // Sets of 32 bits.
 LEAF(Bits) leaf_no_bits() { return hn::Zero(DU()); }
 LEAF(Bits) leaf_except(Bits a, Bits b) { return hn::AndNot(b, a); }
+LEAF(Bits) leaf_all_bits() { return hn::Set(DU(), 0xFFFFFFFFu); }
+LEAF(Bits) leaf_intersection(Bits a, Bits b) { return hn::And(a, b); }
 LEAF(Bits) leaf_union(Bits a, Bits b) { return hn::Or(a, b); }
 LEAF(Bits) leaf_bits_where(Truth t, Bits bits) {
   return hn::IfThenElseZero(hn::RebindMask(DU(), t), bits);
@@ -97,6 +100,18 @@ LEAF(Bits) leaf_bits_below(Real place) {
   const Int below = hn::IfThenElse(hn::Eq(n, hn::Set(di, 32)), hn::BitCast(di, all),
                                    hn::BitCast(di, hn::Not(shifted)));
   return hn::BitCast(du, below);
+}
+
+// `count` of 32 bits, rounded, spread evenly; another `turn` gives others.
+LEAF(Bits) leaf_spread_bits(Real count, int turn) {
+  const DI di;
+  const Int n = hn::Min(hn::Max(hn::NearestInt(count), hn::Zero(di)), hn::Set(di, 32));
+  HWY_ALIGN std::int32_t at[HWY_MAX_BYTES / 4];
+  HWY_ALIGN std::uint32_t bits[HWY_MAX_BYTES / 4];
+  hn::Store(n, di, at);
+  for (std::size_t i = 0; i < hn::Lanes(di); ++i)
+    bits[i] = std::rotl(kSpreadBits[at[i]], 13 * turn);
+  return hn::Load(DU(), bits);
 }
 
 #include "math/slab_leaf.h"

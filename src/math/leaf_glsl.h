@@ -45,6 +45,8 @@
 
 #define leaf_no_bits() 0u
 #define leaf_except(a, b) ((a) & ~(b))
+#define leaf_all_bits() 0xFFFFFFFFu
+#define leaf_intersection(a, b) ((a) & (b))
 #define leaf_union(a, b) ((a) | (b))
 #define leaf_bits_where(t, bits) ((t) ? (bits) : 0u)
 #define leaf_any_bit(bits) ((bits) != 0u)
@@ -57,4 +59,12 @@ void leaf_sin_cos(float x, out float sine, out float cosine) {
 uint leaf_bits_below(float place) {
   const int n = clamp(int(roundEven(place)), 0, 32);
   return n == 32 ? 0xFFFFFFFFu : (1u << n) - 1u;
+}
+// math/spread_bits.h: bit j of a word where j, its five digits in reverse, is less than the count.
+uint leaf_spread_bits(float count, int turn) {
+  const uint n = uint(clamp(int(roundEven(count)), 0, 32));
+  uint bits = 0u;
+  for (uint j = 0u; j < n; ++j) bits |= 1u << (bitfieldReverse(j) >> 27);
+  const int by = (13 * turn) & 31;
+  return by == 0 ? bits : (bits << by) | (bits >> (32 - by));
 }

@@ -43,50 +43,73 @@ rho_between_edges(LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low, LEAF_IN(Sec
   return rho_of(distance_to_line(line, length * across_line(line, wx, wy)));
 }
 
-// Adds the next point outwards: matter on its view ray from depth `depth` to `back`, (bx, by) being
-// the place of its end. It fills what is between them, and where it touches the matter of the point
-// before (within `slack` of depth), what is between the two points. `dither` in [-0.5, 0.5) moves
-// the rounding of edges to sectors, so that many slices round without bias.
+// Marks what of the sectors between two edges is fresh, of those in `among`, and adds its part of
+// rho of the line. What reaches above all before is new above that only.
 LEAF(void)
-add_matter(LEAF_IN(Slice) s, Real x, Real y, Real bx, Real by, Real depth, Real back, Real slack,
-           Real dither, Truth valid, LEAF_INOUT(Sectors) m) {
-  SectorEdge front = find_sector(s, m, x, y);
-  SectorEdge low = front;  // nearest to the zenith
-  SectorEdge high = find_sector(s, m, bx, by);
-  Real gap = leaf_max(depth, m.depth) - leaf_min(back, m.back);
-  Truth joined = leaf_both(m.joined, leaf_less_equal(gap, slack));
-  low = select_sector_edge(leaf_both(joined, leaf_less(m.last.place, low.place)), m.last, low);
-  high = select_sector_edge(leaf_both(joined, leaf_less(high.place, m.last.place)), m.last, high);
+mark_sectors(LEAF_IN(Slice) s, LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low,
+             LEAF_IN(SectorEdge) high, Bits among, Real dither, Truth valid,
+             LEAF_INOUT(Sectors) m) {
   Bits mine = leaf_bits_where(valid, leaf_except(leaf_bits_below(high.place + dither),
                                                  leaf_bits_below(low.place + dither)));
-  Bits fresh = leaf_except(mine, m.covered);
-  if (leaf_any_bit(fresh)) {
-    Real count = leaf_count_bits(fresh);
-    Truth counts = leaf_less(real(0.0f), count);
-    // rho at two directions between the edges, a quarter and three quarters on.
-    MatterLine line = matter_line(s, m.x, m.y, x, y, joined);
-    Real mean = real(0.5f / kSectors) * (rho_between_edges(line, low, high, real(0.25f)) +
-                                         rho_between_edges(line, low, high, real(0.75f)));
-    Real piece = (count * m.span) * mean;
-    m.sum = m.sum + leaf_where(counts, piece);
-    if (kSums != kSumVisibility) {
-      // What reaches above all before is new above that only.
-      Truth above =
-          leaf_both(leaf_less(low.place, m.top.place), leaf_less(m.top.place, high.place));
-      Between w = directions_between(s, low, select_sector_edge(above, m.top, high));
-      m.sum_x = m.sum_x + leaf_where(counts, piece * w.x);
-      m.sum_y = m.sum_y + leaf_where(counts, piece * w.y);
-      m.sum_solid = m.sum_solid + leaf_where(counts, piece * w.solid);
-    }
-    m.covered = leaf_union(m.covered, fresh);
+  Bits fresh = leaf_except(leaf_intersection(mine, among), m.covered);
+  if (!leaf_any_bit(fresh)) return;
+  Real count = leaf_count_bits(fresh);
+  Truth counts = leaf_less(real(0.0f), count);
+  // rho at two directions between the edges, a quarter and three quarters on.
+  Real mean = real(0.5f / kSectors) * (rho_between_edges(line, low, high, real(0.25f)) +
+                                       rho_between_edges(line, low, high, real(0.75f)));
+  Real piece = (count * m.span) * mean;
+  m.sum = m.sum + leaf_where(counts, piece);
+  if (kSums != kSumVisibility) {
+    Truth above = leaf_both(leaf_less(low.place, m.top.place), leaf_less(m.top.place, high.place));
+    Between w = directions_between(s, low, select_sector_edge(above, m.top, high));
+    m.sum_x = m.sum_x + leaf_where(counts, piece * w.x);
+    m.sum_y = m.sum_y + leaf_where(counts, piece * w.y);
+    m.sum_solid = m.sum_solid + leaf_where(counts, piece * w.solid);
   }
+  m.covered = leaf_union(m.covered, fresh);
+}
+
+// Adds the next point outwards. It fills what is between the corners of its box, and where it
+// touches the matter of the point before (is `next` to it and within `slack` of depth), what is
+// between the two: there a surface goes on, without the box's step. `dither` in [-0.5, 0.5) moves
+// the rounding of edges to sectors, so that many slices round without bias.
+LEAF(void)
+add_matter(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth next, Real slack, Real dither,
+           Truth valid, LEAF_INOUT(Sectors) m) {
+  Real x = box.x, y = box.y;
+  Real gap = leaf_max(box.depth, m.depth) - leaf_min(box.back, m.back);
+  Truth joined = leaf_both(m.joined, leaf_both(next, leaf_less_equal(gap, slack)));
+  // In front of the receiver the near side stands nearest to the zenith, behind it the far side.
+  Real corner = leaf_max(leaf_if_negative(y, x + box.reach, x - box.reach), real(0.0f));
+  SectorEdge front = find_sector(s, m, leaf_select(joined, x, corner), y);
+  SectorEdge low = front;  // nearest to the zenith
+  SectorEdge high = find_sector(s, m, box.end_x, box.end_y);
+  low = select_sector_edge(leaf_both(joined, leaf_less(m.last.place, low.place)), m.last, low);
+  high = select_sector_edge(leaf_both(joined, leaf_less(high.place, m.last.place)), m.last, high);
+  mark_sectors(s, matter_line(s, m.x, m.y, x, y, joined), low, high, leaf_all_bits(), dither, valid,
+               m);
   m.x = leaf_select(valid, x, m.x);
   m.y = leaf_select(valid, y, m.y);
-  m.depth = leaf_select(valid, depth, m.depth);
-  m.back = leaf_select(valid, back, m.back);
+  m.depth = leaf_select(valid, box.depth, m.depth);
+  m.back = leaf_select(valid, box.back, m.back);
+  m.last_row = leaf_select(valid, box.last_row, m.last_row);
   m.last = select_sector_edge(valid, front, m.last);
   if (kSums != kSumVisibility) {
     m.top = select_sector_edge(leaf_both(valid, leaf_less(low.place, m.top.place)), low, m.top);
   }
   m.joined = valid;
+}
+
+// Adds matter that fills a `share` of its box only, evenly; `turn` tells apart which sectors it
+// takes, so that what two of them cover is as good as independent. The surface before goes on
+// behind it.
+LEAF(void)
+add_spread(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Real share, Real dither, int turn, Truth valid,
+           LEAF_INOUT(Sectors) m) {
+  Real corner = leaf_max(leaf_if_negative(box.y, box.x + box.reach, box.x - box.reach), real(0.0f));
+  SectorEdge low = find_sector(s, m, corner, box.y);
+  SectorEdge high = find_sector(s, m, box.end_x, box.end_y);
+  Bits among = leaf_spread_bits(leaf_fma(share, real(kSectors), dither), turn);
+  mark_sectors(s, view_line(s, box.x, box.y), low, high, among, dither, valid, m);
 }

@@ -17,13 +17,24 @@ select_sector_edge(Truth t, LEAF_IN(SectorEdge) yes, LEAF_IN(SectorEdge) no) {
   return e;
 }
 
+// What a slice meets of a point's matter, a box on its view ray: its front from `reach` before (x,
+// y) to `reach` behind it, and (end_x, end_y), the corner of its end that is farthest from the
+// zenith. Its rows of texels count from the receiver, outwards.
+struct MatterBox {
+  Real x, y, reach;
+  Real first_row, last_row;
+  Real end_x, end_y;
+  Real depth, back;  // where the matter begins and ends along the view ray
+};
+
 // What a slice's matter has covered so far (math/matter_leaf.h).
 struct Sectors {
   Bits covered;
   Real first, span;        // F where the hemisphere begins, and over it
   Real x, y, depth, back;  // the point before: its place, and where its matter begins and ends
-  SectorEdge last;         // its direction
-  Truth joined;            // there is a point before
+  Real last_row;
+  SectorEdge last;  // its direction
+  Truth joined;     // there is a point before
   Real sum;
   Real sum_x, sum_y, sum_solid;  // directions, see SliceSums
   SectorEdge top;                // for them: nearest to the zenith so far
@@ -39,6 +50,7 @@ LEAF(Sectors) start_sectors(LEAF_IN(Slice) s, bool from_receiver, Real depth, Re
   m.y = zero;
   m.depth = depth;
   m.back = back;
+  m.last_row = zero;
   // What joins the receiver's own surface fills the slice down to its end.
   m.last.sine = end.sine;
   m.last.cosine = end.cosine;

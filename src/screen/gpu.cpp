@@ -15,12 +15,23 @@ Status make_full(const Settings& settings, const Frame& frame, Program* program)
   }
 }
 
+// Whether a method reads where matter ends.
+template <class Settings>
+bool reads_back(const Settings& settings) {
+  if constexpr (requires { settings.occluder; }) {
+    return settings.occluder.kind == OccluderKind::kBackDepth ||
+           settings.occluder.kind == OccluderKind::kAuto;
+  }
+  return false;
+}
+
 template <class Settings>
 Status make_any(const Settings& settings, const Frame& frame, Program* program) {
   if constexpr (requires { settings.resolution; }) {
     if (settings.resolution == Resolution::kHalf) {
       return make_half_program(
-          frame, [&](const Frame& half) { return make_full(settings, half, program); }, program);
+          frame, reads_back(settings),
+          [&](const Frame& half) { return make_full(settings, half, program); }, program);
     }
   }
   return make_full(settings, frame, program);

@@ -9,6 +9,7 @@
 #include "math/leaf_scalar.h"
 #include "view/check_view.h"
 #include "view/normals.h"
+#include "view/widths.h"
 
 namespace obscura {
 namespace leaf_scalar {
@@ -75,6 +76,17 @@ Status check(const DepthField& field, const Needs& needs) {
     }
   }
   return {};
+}
+
+// Of the occluder `auto`: the best of what a depth field says about matter.
+void choose_matter(DepthField* field, Needs* needs) {
+  const auto given = static_cast<int>(field->layers.size());
+  if (needs->any_layers) {
+    needs->layers = std::min(given, static_cast<int>(Occluder::kLayersRange.max));
+  } else if (field->back_depth.empty() && given > 0) {
+    field->back_depth = field->layers[0].back;
+  }
+  needs->back_depth = needs->layers == 0 && !field->back_depth.empty();
 }
 
 // The one place that turns a depth value of any kind into linear depth. Background becomes +inf;
@@ -194,8 +206,19 @@ void find_depth_range(Executor& executor, Geometry* g) {
   if (g->min_depth == kInf) g->min_depth = 0;
 }
 
-Status convert(const DepthField& field, const Needs& needs, Executor& executor,
+Needs& Needs::with(const Occluder& occluder, bool takes_layers) {
+  back_depth = occluder.kind == OccluderKind::kBackDepth;
+  layers = occluder.kind == OccluderKind::kLayers ? occluder.layers : 0;
+  automatic = occluder.kind == OccluderKind::kAuto;
+  any_layers = takes_layers;
+  return *this;
+}
+
+Status convert(const DepthField& given, const Needs& asked, Executor& executor,
                Geometry* geometry) {
+  DepthField field = given;
+  Needs needs = asked;
+  if (needs.automatic) choose_matter(&field, &needs);
   if (Status s = check(field, needs); !s.ok()) return s;
   Geometry& g = *geometry;
   g.width = field.depth.width;
@@ -219,6 +242,7 @@ Status convert(const DepthField& field, const Needs& needs, Executor& executor,
     if (!s.ok()) return s;
     clamp_back(layer.front, executor, &layer.back);
   }
+  if (needs.automatic && !needs.back_depth && needs.layers == 0) back_from_widths(executor, &g);
   g.has_normals = needs.normals && field.normal_use == NormalUse::kAuto;
   if (g.has_normals) compute_normals(field.normals, executor, &g);
   return {};

@@ -6,6 +6,7 @@
 #include "core/aligned_image.h"
 #include "obscura/depth_field.h"
 #include "obscura/executor.h"
+#include "obscura/occluder.h"
 
 namespace obscura::view {
 
@@ -24,6 +25,7 @@ struct Geometry {
   // +z towards the camera; (0, 0, 1) on the background. Filled in the visible part only.
   AlignedImage<float> normal_x, normal_y, normal_z;
   AlignedImage<float> back_depth;      // when asked for; >= depth
+  AlignedImage<float> runs;            // what back_from_widths() works in
   std::vector<Layer> layers;           // when asked for
   float min_depth = 0, max_depth = 0;  // over finite pixels; both 0 where all is background
 
@@ -35,7 +37,13 @@ struct Needs {
   bool normals = false;
   bool back_depth = false;
   int layers = 0;
+  // The occluder `auto`: layers where they are given and `any_layers` is set, else back_depth,
+  // which comes from the back depth given, the first layer's, or the widths of what is seen.
+  bool automatic = false, any_layers = false;
   bool works_without_normals = false;  // NormalUse::kNone is allowed
+
+  // Adds what an occluder needs; `layers`: the method takes them for `auto`.
+  Needs& with(const Occluder& occluder, bool layers);
 };
 
 // Checks a depth field and converts it, reusing the storage of `geometry`.

@@ -3,6 +3,7 @@
 #include "shaders/depth.h"
 #include "shaders/farthest.h"
 #include "shaders/normals.h"
+#include "shaders/widths.h"
 
 namespace obscura::gpu {
 namespace {
@@ -17,6 +18,23 @@ Pass conversion(const FrameShape& shape, Slot image, int region) {
           .constants = {{io::kDepthKind, static_cast<int>(shape.depth_kind)}},
           .slots = {{io::kDepthImageAt, image}, {io::kDepthAt, region}},
           .size = shape.size()};
+}
+
+// Where matter ends that is as thick as it is wide.
+int add_widths(const FrameShape& shape, const Geometry& geometry, Program* program) {
+  namespace io = widths_io;
+  const int down = program->add_region(depth_bytes(shape));
+  const int back = program->add_region(depth_bytes(shape));
+  for (bool across : {false, true}) {
+    program->add({.name = "widths",
+                  .shader = shaders::widths,
+                  .constants = {{io::kAcross, across}},
+                  .slots = {{io::kDepthAt, geometry.depth},
+                            {io::kDownAt, across ? down : geometry.depth},
+                            {io::kRunsAt, across ? back : down}},
+                  .size = {across ? shape.height : shape.width, 1}});
+  }
+  return back;
 }
 
 }  // namespace
@@ -41,8 +59,9 @@ Geometry add_geometry(const Frame& frame, bool normals, Program* program) {
   return g;
 }
 
-int add_back_depth(const Frame& frame, Program* program) {
+int add_back_depth(const Frame& frame, const Geometry& geometry, Program* program) {
   if (frame.geometry.back >= 0) return frame.geometry.back;
+  if (!frame.shape.back_depth) return add_widths(frame.shape, geometry, program);
   const int back = program->add_region(depth_bytes(frame.shape));
   Pass pass = conversion(frame.shape, Slot::kBackDepthImage, back);
   pass.overlaps = true;

@@ -10,8 +10,10 @@ namespace obscura::gpu {
 // Adds linear depth and, if asked for, normals; or gives what the frame has.
 Geometry add_geometry(const Frame& frame, bool normals, Program* program);
 
-// Adds where matter ends, linear depth (FrameShape::back_depth); or gives what the frame has.
-int add_back_depth(const Frame& frame, Program* program);
+// Adds where matter ends, linear depth: the back depth given (FrameShape::back_depth) or, where
+// there is none, matter as thick as `geometry` is wide (view/widths.h); or gives what the frame
+// has.
+int add_back_depth(const Frame& frame, const Geometry& geometry, Program* program);
 
 // Adds a region of kFarthestCount floats, the greatest of which is the farthest finite depth.
 inline constexpr int kFarthestCount = 256;

@@ -66,6 +66,35 @@ TEST_F(CommandTest, BackDepthAndLayersPassThroughAFile) {
   expect_failure("ao g.exr --method ray-traced --occluder layers:3 -o x.pfm", 3, "layers");
 }
 
+// What `auto` finds depends on the file; a result says it, and compare says where two differ.
+TEST_F(CommandTest, ResultsSayWhichOccluderTheyWereMadeWith) {
+  expect_success("gbuffer 'scene:tower?size=64x36' -o depth.exr");
+  expect_success("gbuffer 'scene:tower?size=64x36&back-depth=1' -o back.exr");
+  expect_success("gbuffer 'scene:tower?size=64x36&layers=2' -o layers.exr");
+  const std::string far_field = " --method far-field --preset fast --occluder ";
+  const std::string rays = " --method ray-traced --rays 16 --occluder ";
+  const struct {
+    std::string arguments, occluder;
+  } cases[] = {{"depth.exr" + far_field + "solid", "solid"},
+               {"depth.exr" + far_field + "auto", "auto, from widths"},
+               {"back.exr" + far_field + "auto", "auto, from back depth"},
+               {"layers.exr" + far_field + "auto", "auto, from back depth"},
+               {"layers.exr" + rays + "auto", "auto, from layers"},
+               {"depth.exr" + rays + "thickness:0.5", "thickness:0.5"}};
+  for (const auto& c : cases) {
+    expect_success("ao " + c.arguments + " -o x.exr");
+    Image x;
+    ASSERT_TRUE(tools::read_image(path("x.exr"), &x).ok());
+    EXPECT_EQ(x.occluder, c.occluder) << c.arguments;
+  }
+  expect_success("ao depth.exr" + far_field + "solid -o a.exr");
+  const CommandResult different = run("compare a.exr x.exr");
+  EXPECT_EQ(different.code, 0);
+  EXPECT_NE(different.err.find("the image's occluder is solid, the reference's thickness:0.5"),
+            std::string::npos);
+  EXPECT_EQ(run("compare a.exr a.exr").err, "");
+}
+
 TEST_F(CommandTest, AnyThreadCountGivesTheSameBytes) {
   expect_success("ao 'scene:meadow?size=96x54' --method line --threads 1 -o a.pfm");
   expect_success("ao 'scene:meadow?size=96x54' --method line --threads 3 -o b.pfm");

@@ -141,6 +141,24 @@ TEST_F(VulkanFarField, BackDepthAgrees) {
   }
 }
 
+// As thick as wide, of one, few and many groups of rows and columns.
+TEST_F(VulkanFarField, MatterAsThickAsWideAgrees) {
+  for (const bool orthographic : {false, true}) {
+    for (const auto& [w, h] : {std::pair{75, 56}, {23, 131}}) {
+      const Camera camera =
+          orthographic ? Camera::orthographic_height(4, w, h) : Camera::perspective(1, w, h);
+      synthetic::Input in = synthetic::blocks(w, h, camera, 4);
+      in.guard_band = GuardBand::symmetric(2, 1);
+      for (Resolution resolution : {Resolution::kFull, Resolution::kHalf}) {
+        FarFieldSettings s = far_field(1);
+        s.occluder = Occluder::automatic();
+        s.resolution = resolution;
+        expect_same(in.field(), s, "width " + std::to_string(w), true);
+      }
+    }
+  }
+}
+
 FarFieldSettings shared_work(bool separable, bool blur, int line_step) {
   FarFieldSettings s = far_field(1);
   s.directions = separable ? 18 : 8;

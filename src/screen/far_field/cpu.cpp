@@ -29,14 +29,15 @@ int list_intervals(const Direction& direction, const Segment& segment, const Lin
   auto phase_of = [&](int line) { return ((line % phases) + phases) % phases; };
   auto place_of = [&](int line) { return (line - phase_of(line)) / phases; };
   for (int i = 0; i < count; ++i) {
-    const auto& [level, strip, first, last, middle] = found[i];
+    const auto& [level, strip, first, last, middle, away] = found[i];
     reads[i] = {.from = {},
                 .to = {},
                 .first = place_of(first),
                 .last = place_of(last + 1),
                 .inverse_lines = static_cast<float>(1.0 / (last + 1 - first)),
                 .line = {},
-                .middle = place_of(middle)};
+                .middle = place_of(middle),
+                .away = static_cast<float>(away)};
     if (finite) {
       reads[i].line = buffer->raw(level, strip, phase_of(middle));
     } else {
@@ -60,13 +61,10 @@ void list_taps(const Plane& p, const Direction& direction, const Segment& segmen
                      .upper_next = upper + right,
                      .lower = lower + left,
                      .lower_next = lower + right,
-                     .nearest = (tap.wv >= 0.5f ? lower : upper) + (tap.wu >= 0.5f ? right : left),
                      .wu = tap.wu,
                      .wv = tap.wv,
-                     .along = tap.along,
-                     .centred = false});
+                     .along = tap.along});
   }
-  for (std::size_t i = 0; i < taps->size(); ++i) (*taps)[i].centred = is_centred(segment, i);
 }
 
 class FarFieldMethod final : public Method {
@@ -75,7 +73,7 @@ class FarFieldMethod final : public Method {
       : plan_(std::move(plan)), margin_(plan_.reach + 2 * PrefixSums::kPadding * phases_) {}
 
   view::Needs needs() const override {
-    return {.normals = true, .back_depth = settings_.occluder.kind == OccluderKind::kBackDepth};
+    return view::Needs{.normals = true}.with(settings_.occluder, false);
   }
   OutputKinds output_kinds() const override {
     return {

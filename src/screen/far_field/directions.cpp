@@ -25,6 +25,14 @@ std::vector<NearTap> make_taps(const FarFieldSettings& s, double angle) {
   std::vector<NearTap> taps;
   if (!s.near_field) return taps;
   const double rows = std::cos(angle), slope = std::tan(angle);
+  if (s.occluder.kind != OccluderKind::kSolid) {
+    // Matter that ends is met texel by texel, where the slice crosses rows.
+    for (int v = 1; v <= longest_near_field(s.interval); ++v) {
+      const double u = std::round(v * slope * 4096) / 4096, du = std::floor(u);
+      taps.push_back({float(v), static_cast<int>(du), v, float(u - du), 0});
+    }
+    return taps;
+  }
   for (double distance : near_distances(s.near_step, longest_near_field(s.interval) / rows)) {
     // Rounded so that samples on lattice lines stay on them, mirrored ones too.
     const double v = std::round(distance * rows * 4096) / 4096;

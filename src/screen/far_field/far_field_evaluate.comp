@@ -10,7 +10,7 @@ void add_taps(Receiver r, Part part, Reads reads, Place place, inout Horizon h) 
     const uvec4 tap = quads[reads.taps + k];
     const float along = uintBitsToFloat(tap.x);
     const vec2 weight = uintBitsToFloat(tap.yz);
-    const int i = place.texel + (int(tap.w) >> 1);
+    const int i = place.texel + int(tap.w);
     float g = blended(lattice[i], lattice[i + 1], weight.x);
     if (weight.y > 0.0) {
       const int j = i + place.row_step;

@@ -12,15 +12,20 @@
 #include "gpu/view.glsl"
 
 const bool kFinite = true;
+float row_length() { return view.transposed != 0 ? view.scale_x : view.scale_y; }
 #include "screen/far_field/far_field_pieces.glsl"
+
+Stored load(int at) { return Stored(pieces[2 * at], pieces[2 * at + 1]); }
 
 void main() {
   const ivec3 at = ivec3(gl_GlobalInvocationID);
   // Where the level begins and its strips, the same of the level below.
   const ivec4 merge = ivec4(quads[view.merges + at.z]);
   if (at.x >= view.line_stride || at.y >= merge.y) return;
-  const int first = 2 * at.y, second = min(first + 1, merge.w - 1);
-  const vec3 a = pieces[(merge.z + first) * view.line_stride + at.x].xyz;
-  const vec3 b = pieces[(merge.z + second) * view.line_stride + at.x].xyz;
-  pieces[(merge.x + at.y) * view.line_stride + at.x] = vec4(merged(a, b), 0.0);
+  const int first = 2 * at.y, second = first + 1;
+  Stored m = load((merge.z + first) * view.line_stride + at.x);
+  if (second < merge.w) m = merged(m, load((merge.z + second) * view.line_stride + at.x));
+  const int to = (merge.x + at.y) * view.line_stride + at.x;
+  pieces[2 * to] = m.first;
+  pieces[2 * to + 1] = m.rest;
 }

@@ -14,18 +14,20 @@
 #include "gpu/view.glsl"
 
 #include "screen/far_field/far_field.glsl"
+
+float row_length() { return plane_scale().y; }
 #include "screen/far_field/far_field_pieces.glsl"
 
-shared vec3 strips[kStripsPerGroup][kLinesPerGroup];
+shared Stored strips[kStripsPerGroup][kLinesPerGroup];
 
 // One row of a strip: where a line lies between two texels.
-struct Crossing {
+struct LineRow {
   int texel;
   float blend, outward;  // coordinate of the row at depth 1, or in world units
 };
 
 // False where the line is outside the image.
-bool crosses(Direction d, int line, int r, out Crossing at) {
+bool crosses(Direction d, int line, int r, out LineRow at) {
   const ivec2 size = plane_size();
   const uvec4 rows = quads[d.rows + r / 2];
   const uvec2 row = r % 2 == 0 ? rows.xy : rows.zw;
@@ -37,14 +39,14 @@ bool crosses(Direction d, int line, int r, out Crossing at) {
   return u >= -1 && u < size.x;
 }
 
-float slanted_at(Crossing at, float depth) {
+float slanted_at(LineRow at, float depth) {
   return slanted_height(view.slope, at.outward, depth, view.orthographic != 0);
 }
 
 Piece scan_strip(Direction d, int line, int first, int end) {
   Piece found = no_piece();
   for (int r = first; r < end; ++r) {
-    Crossing at;
+    LineRow at;
     if (!crosses(d, line, r, at)) continue;
     const float a = lattice[at.texel], b = lattice[at.texel + 1];
     const float g = between_texels(a, b, at.blend < 0.5 ? a : b, at.blend);
@@ -55,32 +57,28 @@ Piece scan_strip(Direction d, int line, int first, int end) {
   return found;
 }
 
-Piece scan_matter(Direction d, int line, int first, int end) {
+Matter scan_matter(Direction d, int line, int first, int end) {
   MatterScan m = start_matter_scan();
   for (int r = first; r < end; ++r) {
-    Crossing at = Crossing(0, 0.0, 0.0);
-    bool surface = false;
-    float depth = 1.0, back = 1.0;
+    LineRow at = LineRow(0, 0.0, 0.0);
+    Crossing c = Crossing(1.0, 1.0, false);
     if (crosses(d, line, r, at)) {
-      const float a = lattice[at.texel], b = lattice[at.texel + 1];
-      const float back_a = backs[at.texel], back_b = backs[at.texel + 1];
-      const bool nearer = at.blend < 0.5;
-      const float g = between_matter(a, b, nearer ? a : b, at.blend, depth_of(max(a, kSmallest)),
-                                     depth_of(max(b, kSmallest)), back_a, back_b, join_slack());
-      surface = g > 0.0;
-      depth = depth_of(max(g, kSmallest));
-      back = max(nearer ? back_a : back_b, depth);
+      c = cross_matter(lattice[at.texel], lattice[at.texel + 1], backs[at.texel],
+                       backs[at.texel + 1], at.blend, at.blend < 0.5, join_slack(),
+                       ortho_offset[0], view.orthographic != 0);
     }
-    add_matter_row(surface, depth, back, slanted_at(at, depth), join_slack(), m);
+    add_matter_row(c.surface, c.depth, c.back, slanted_at(at, c.depth), at.outward, join_slack(),
+                   m);
   }
-  return nearer_piece(m.piece, m.best);
+  return end_matter_scan(m);
 }
 
-void store(int at, vec3 found) {
+void store(int at, Stored found) {
   if (kFinite) {
-    pieces[at] = vec4(found, 0.0);
+    pieces[2 * at] = found.first;
+    pieces[2 * at + 1] = found.rest;
   } else {
-    raw[at] = found.xy;
+    raw[at] = found.first.xy;
   }
 }
 
@@ -88,12 +86,12 @@ void main() {
   const ivec3 at = ivec3(gl_GlobalInvocationID);
   const int y = int(gl_LocalInvocationID.y), x = int(gl_LocalInvocationID.x);
   const Direction d = direction_at(at.z);
-  vec3 found = stored_piece(no_piece());
+  Stored found = stored_piece(no_piece());
   if (at.x < d.lines && at.y < int(d.strips.x)) {
     const int start = at.y * kInterval - d.strip_offset;
     const int first = max(start, 0), end = min(start + kInterval, plane_size().y);
     if (kFinite) {
-      found = stored_piece(scan_matter(d, at.x, first, end));
+      found = stored_matter(scan_matter(d, at.x, first, end));
     } else {
       found = stored_piece(scan_strip(d, at.x, first, end));
     }

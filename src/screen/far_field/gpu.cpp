@@ -43,8 +43,8 @@ class FarFieldProgram {
   void build() {
     const Geometry g = add_geometry(frame_, true, program_);
     depth_ = back_ = g.depth;
-    if (settings_.occluder.kind == OccluderKind::kBackDepth) {
-      back_ = add_back_depth(frame_, program_);
+    if (occluder_kind() == far_field_fill_io::kWithBack) {
+      back_ = add_back_depth(frame_, g, program_);
     }
     normals_ = g.normals;
     program_->add_table(tables_.words());
@@ -184,12 +184,14 @@ class FarFieldProgram {
     int strips = b.strips >> (far_field_scan_io::kSharedLevels - 1);
     for (int table : b.merges) {
       strips = (strips + 2) / 2;
-      program_->add({.name = "scan",
-                     .shader = shaders::far_field_merge,
-                     .slots = {{io::kTablesAt, tables()}, {io::kPiecesAt, raw_}},
-                     .size = {b.lines, strips},
-                     .layers = static_cast<int>(b.directions.size()),
-                     .push = push_words(io::Push{.merges = table, .line_stride = b.lines})});
+      program_->add(
+          {.name = "scan",
+           .shader = shaders::far_field_merge,
+           .slots = {{io::kTablesAt, tables()}, {io::kPiecesAt, raw_}},
+           .size = {b.lines, strips},
+           .layers = static_cast<int>(b.directions.size()),
+           .push = push_words(io::Push{
+               .transposed = b.plane->transposed, .merges = table, .line_stride = b.lines})});
     }
   }
 

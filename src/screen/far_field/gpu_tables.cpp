@@ -84,8 +84,7 @@ int FarFieldTables::add_taps(const PlaneShape& p, const Direction& d, const Segm
   const int start = quads_.size();
   for (const far_field::NearTap& tap : segment.taps) {
     const int offset = tap.dv * d.sign * p.stride + tap.du;
-    quads_.add(bits(tap.along), bits(tap.wu), bits(tap.wv),
-               bits(2 * offset + far_field::is_centred(segment, &tap - segment.taps.data())));
+    quads_.add(bits(tap.along), bits(tap.wu), bits(tap.wv), bits(offset));
   }
   return start;
 }
@@ -143,7 +142,8 @@ int FarFieldTables::add_intervals(const Direction& d, const Segment& segment,
     int& restart = (*restarts)[f.level];
     while (lines > 1 << restart) ++restart;
     quads_.add(bits(levels.index(f.level, f.strip) | f.level << 24),
-               bits(finite() ? f.middle : f.first), bits(f.last + 1),
+               bits(finite() ? f.middle : f.first),
+               finite() ? bits(static_cast<float>(f.away)) : bits(f.last + 1),
                bits(1.0f / static_cast<float>(lines)));
   }
   return count;

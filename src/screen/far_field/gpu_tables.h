@@ -55,7 +55,7 @@ class FarFieldTables {
     return (b.lines + 1 + line_phases() - 1) / line_phases() * line_phases();
   }
   std::uint64_t raw_bytes(const Batch& b) const {
-    return std::uint64_t{finite() ? 16u : 8u} * b.raw_rows * b.lines;
+    return std::uint64_t{finite() ? 32u : 8u} * b.raw_rows * b.lines;
   }
   std::uint64_t sum_bytes(const Batch& b) const {
     return std::uint64_t{12} * b.sum_rows * sum_stride(b);

@@ -43,7 +43,7 @@ int find_intervals(const Direction& direction, const Segment& segment, const Lin
     int first = static_cast<int>(std::ceil(line_at(segment.low)));
     int last = static_cast<int>(std::floor(line_at(segment.high)));
     if (first > last) first = last = middle;
-    found[count++] = {level, strip, first, last, middle};
+    found[count++] = {level, strip, first, last, middle, away};
     ++strip;
     if (strip % 2 == 0 && level + 1 < levels.levels()) {
       strip /= 2;
@@ -65,14 +65,6 @@ int count_taps(const Segment& segment, int row, int rows, int height) {
     ++count;
   }
   return count;
-}
-
-bool is_centred(const Segment& segment, std::size_t tap) {
-  const std::vector<NearTap>& taps = segment.taps;
-  const float row = std::round(taps[tap].along);
-  auto off = [&](std::size_t k) { return std::abs(taps[k].along - row); };
-  return row > 0 && (tap == 0 || off(tap) < off(tap - 1)) &&
-         (tap + 1 == taps.size() || off(tap) <= off(tap + 1));
 }
 
 int phases_of(const FarFieldSettings& s) {

@@ -39,6 +39,7 @@ struct StripLevels {
 struct IntervalLines {
   int level, strip;
   int first, last, middle;
+  double away;  // rows from the receiver to the strip's middle
 };
 
 // Which intervals a segment reads for the receiver at texel u of a row (`row` counted outwards):
@@ -52,10 +53,6 @@ int near_rows(const Direction& direction, int interval, int row, int height);
 
 // How many samples lie within `rows` rows outwards of a row (counted outwards) and in the image.
 int count_taps(const Segment& segment, int row, int rows, int height);
-
-// Whether no other sample is nearer to this one's nearest row of texels; the receiver's own row, 0,
-// has none.
-bool is_centred(const Segment& segment, std::size_t tap);
 
 // Pixels that do alike lie this far apart along a row.
 int phases_of(const FarFieldSettings& settings);

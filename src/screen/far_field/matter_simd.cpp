@@ -13,35 +13,13 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura::far_field {
 namespace HWY_NAMESPACE {
 
-struct Sample {
-  V depth, back;
-  M valid;
-};
-HWY_INLINE Sample ReadTap(const SliceRow& job, const RowFrame& f, const TapRead& tap, int i) {
-  const D d;
-  const float* texels = job.texels + i;
-  const V a = hn::LoadU(d, texels + tap.upper), b = hn::LoadU(d, texels + tap.upper_next);
-  const V c = hn::LoadU(d, texels + tap.lower), e = hn::LoadU(d, texels + tap.lower_next);
-  const float* backs = job.backs + i;
-  const V back = hn::LoadU(d, backs + tap.nearest);
-  const V first_back =
-      hn::Min(hn::Min(hn::LoadU(d, backs + tap.upper), hn::LoadU(d, backs + tap.upper_next)),
-              hn::Min(hn::LoadU(d, backs + tap.lower), hn::LoadU(d, backs + tap.lower_next)));
-  const bool right = tap.wu >= 0.5f, below = tap.wv >= 0.5f;
-  const V nearest = below ? (right ? e : c) : (right ? b : a);
-  const leaf::MatterTap found = leaf::matter_tap(
-      a, b, c, e, hn::Set(d, tap.wu), hn::Set(d, tap.wv), nearest, back, first_back,
-      hn::Set(d, job.slack), hn::Set(d, f.plane.ortho_offset), f.plane.orthographic);
-  return {found.depth, found.back,
-          tap.centred ? found.surface : hn::And(found.surface, found.smooth_here)};
-}
-
 template <FalloffKind kKind, SliceSums kSums>
 void AddMatterSlices(const SliceRow& job) {
   const D d;
   const Plane& p = *job.plane;
   const RowFrame f(job);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Inf(d);
+  const V ortho_offset = hn::Set(d, p.ortho_offset);
   const V slack = hn::Set(d, job.slack), dither = hn::Set(d, job.dither);
   leaf::SliceIntegral<kKind, true, kSums> slices(*job.rho);
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -52,16 +30,22 @@ void AddMatterSlices(const SliceRow& job) {
     const leaf::Part& part = r.part;
     leaf::Sectors m = leaf::start_sectors(part.slice, job.tap_count > 0, part.depth,
                                           hn::Max(hn::LoadU(d, own_back + i), part.depth));
-    auto add = [&](V depth, V back, V rows, M valid) HWY_ATTR {
-      const V x = leaf::part_x(part, rows), y = leaf::part_y(part, depth, rows);
-      const leaf::MatterEnd end = leaf::matter_end(part, x, y, depth, back, p.orthographic);
-      slices.add_matter(part.slice, x, y, end.x, end.y, depth, back, hn::Mul(slack, depth), dither,
+    auto add = [&](V depth, V back, V rows, V first, V last, M valid) HWY_ATTR {
+      const leaf::MatterBox box =
+          leaf::matter_box(part, rows, first, last, depth, back, p.orthographic);
+      const M next = hn::Lt(hn::Sub(first, m.last_row), hn::Set(d, leaf::kNextRow));
+      slices.add_matter(part.slice, box, next, hn::Mul(slack, depth), dither,
                         hn::And(valid, r.surface), m);
     };
     for (int k = 0; k < job.tap_count; ++k) {
       const TapRead& tap = job.taps[k];
-      const Sample s = ReadTap(job, f, tap, i);
-      add(s.depth, s.back, hn::Mul(hn::Set(d, tap.along), p.orthographic ? one : s.depth), s.valid);
+      const float *texels = job.texels + i, *backs = job.backs + i;
+      const leaf::Crossing c = leaf::cross_matter(
+          hn::LoadU(d, texels + tap.upper), hn::LoadU(d, texels + tap.upper_next),
+          hn::LoadU(d, backs + tap.upper), hn::LoadU(d, backs + tap.upper_next), hn::Set(d, tap.wu),
+          leaf::leaf_truth(tap.wu < 0.5f), slack, ortho_offset, p.orthographic);
+      const V row = hn::Set(d, tap.along);
+      add(c.depth, c.back, p.orthographic ? row : hn::Mul(row, c.depth), row, row, c.surface);
     }
     if (job.far_alone) m.sum = m.sum_x = m.sum_y = m.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
@@ -72,9 +56,26 @@ void AddMatterSlices(const SliceRow& job) {
       const V depth = hn::IfThenElse(valid, nearest, one);
       const V slanted = hn::IfThenElse(valid, hn::LoadU(d, read.line.slanted + line), one);
       const V back = hn::IfThenElse(valid, hn::LoadU(d, read.line.deepest + line), one);
-      const V outward = leaf::outward_of(hn::Set(d, job.slope / p.scale_v), depth, slanted);
-      const V rows = hn::MulAdd(hn::Set(d, f.axis), p.orthographic ? one : depth, outward);
-      add(depth, back, rows, valid);
+      const V per_row = hn::Set(d, 1 / p.scale_v);
+      const V axis = hn::Set(d, f.axis);
+      const V rows = hn::MulAdd(leaf::outward_of(hn::Set(d, job.slope), depth, slanted), per_row,
+                                p.orthographic ? axis : hn::Mul(axis, depth));
+      auto row_of = [&](const float* outward) HWY_ATTR {
+        return hn::MulAdd(hn::LoadU(d, outward + line), per_row, axis);
+      };
+      add(depth, back, rows, row_of(read.line.begin), row_of(read.line.end), valid);
+      const leaf::Rest rest{hn::LoadU(d, read.line.rest_front + line),
+                            hn::LoadU(d, read.line.rest_back + line),
+                            hn::LoadU(d, read.line.rest_filled + line)};
+      const M more = hn::And(hn::Lt(rest.front, inf), r.surface);
+      if (!hn::AllFalse(d, more)) {
+        const V front = hn::IfThenElse(more, rest.front, one);
+        const V row = hn::Set(d, read.away);
+        const leaf::MatterBox box =
+            leaf::matter_box(part, p.orthographic ? row : hn::Mul(row, front), row, row, front,
+                             hn::Max(rest.back, front), p.orthographic);
+        slices.add_spread(part.slice, box, leaf::rest_share(rest), dither, k, more, m);
+      }
     }
     AddToRow<kSums>(job, f, r, i, m);
   }

@@ -68,7 +68,7 @@ Status make_plan(const FarFieldSettings& given, FarFieldPlan* plan) {
     return invalid_argument("jitter and separable 3 exclude each other: both share out 3x3 pixels");
   }
   if (settings.occluder.kind == OccluderKind::kLayers) {
-    return unsupported("the far field takes the occluders solid, thickness and back-depth");
+    return unsupported("the far field takes the occluders auto, solid, thickness and back-depth");
   }
   if (Status s = math::make_rho(settings.falloff, &plan->rho); !s.ok()) return s;
   plan->settings = settings;

@@ -79,7 +79,7 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   });
   p.finite = occluder.kind != OccluderKind::kSolid;
   if (p.finite) {
-    const bool given = occluder.kind == OccluderKind::kBackDepth;
+    const bool given = occluder.kind != OccluderKind::kThickness;
     lattice(&p.back, [&](int x, int y) {
       const float d = texel(g.depth, x, y);
       if (!std::isfinite(d)) return 0.0f;

@@ -18,7 +18,10 @@ namespace leaf {
 // After taps_leaf.h.
 #include "screen/far_field/lattice_leaf.h"
 // After lattice_leaf.h.
+#include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/slices_leaf.h"
+// After slices_leaf.h.
+#include "screen/far_field/box_leaf.h"
 }  // namespace leaf
 }  // namespace HWY_NAMESPACE
 

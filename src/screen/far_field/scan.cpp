@@ -28,6 +28,8 @@ void ScanBuffer::resize(const Plane& plane, const Direction& direction, int inte
   slanted_.resize(width, rows);
   if (plane.finite) {
     deepest_.resize(width, rows);
+    for (auto* image : {&begin_, &end_, &rest_front_, &rest_back_, &rest_filled_})
+      image->resize(width, rows);
   } else {
     depth_.resize(width, rows);
     outward_.resize(width, rows);
@@ -43,15 +45,18 @@ PrefixSums ScanBuffer::sums(int level, int strip, int phase) {
 RawStrip ScanBuffer::raw(int level, int strip, int phase) {
   const int i = pyramid_.index(level, strip);
   const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
-  return {nearest_.row(i) + at, slanted_.row(i) + at,
-          deepest_.empty() ? nullptr : deepest_.row(i) + at};
+  auto row = [&](AlignedImage<float>& image) {
+    return image.empty() ? nullptr : image.row(i) + at;
+  };
+  return {row(nearest_), row(slanted_),    row(deepest_),   row(begin_),
+          row(end_),     row(rest_front_), row(rest_back_), row(rest_filled_)};
 }
 
 std::size_t ScanBuffer::bytes() const {
   const std::size_t doubles = depth_.stride() * depth_.height() * 2;
   const std::size_t floats = count_.stride() * count_.height() +
                              2 * nearest_.stride() * nearest_.height() +
-                             deepest_.stride() * deepest_.height();
+                             6 * deepest_.stride() * deepest_.height();
   return doubles * sizeof(double) + floats * sizeof(float);
 }
 
@@ -99,7 +104,14 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
   };
   clear(out.nearest, kInf);
   clear(out.slanted, -kInf);
-  if (plane.finite) clear(out.deepest, 0);
+  if (plane.finite) {
+    clear(out.deepest, 0);
+    clear(out.begin, 0);
+    clear(out.end, 0);
+    clear(out.rest_front, kInf);
+    clear(out.rest_back, 0);
+    clear(out.rest_filled, 0);
+  }
   const StripJob job{.rows = rows,
                      .row_count = count,
                      .begin = begin,
@@ -130,16 +142,18 @@ void scan(const Plane& plane, const Direction& direction, const ScanSettings& se
       const int lines = round_up(buffer->phase_lines()) + 2 * PrefixSums::kPadding;
       auto raw = [&](int l, int i, int phase) {
         RawStrip r = buffer->raw(l, i, phase);
-        r.nearest -= PrefixSums::kPadding;
-        r.slanted -= PrefixSums::kPadding;
-        if (r.deepest) r.deepest -= PrefixSums::kPadding;
+        for (float** row : {&r.nearest, &r.slanted, &r.deepest, &r.begin, &r.end, &r.rest_front,
+                            &r.rest_back, &r.rest_filled}) {
+          if (*row) *row -= PrefixSums::kPadding;
+        }
         return r;
       };
       for (int phase = 0; phase < buffer->phases(); ++phase) {
         const RawStrip out = raw(level, strip, phase);
         const RawStrip first = raw(level - 1, a, phase), second = raw(level - 1, b, phase);
-        plane.finite ? merge_matter(lines, slack, first, second, out)
-                     : merge_strips(lines, first, second, out);
+        plane.finite
+            ? merge_matter(lines, slack, plane.scale_v, first, b > a ? &second : nullptr, out)
+            : merge_strips(lines, first, second, out);
       }
     });
   }

@@ -21,9 +21,15 @@ struct PrefixSums {
 
 // The same lines before they are summed, padded likewise with lines that saw nothing.
 struct RawStrip {
-  float* nearest;  // -m0 per line, +inf where no surface
-  float* slanted;  // m1 per line
-  float* deepest;  // finite occluders: depth at which the matter ends
+  float* nearest = nullptr;  // -m0 per line, +inf where no surface
+  float* slanted = nullptr;  // m1 per line
+
+  // Finite occluders: depth at which the nearest connected piece of matter ends, outward
+  // coordinates of its first and last row (at depth 1, or in world units), and the other pieces
+  // together.
+  float* deepest = nullptr;
+  float *begin = nullptr, *end = nullptr;
+  float *rest_front = nullptr, *rest_back = nullptr, *rest_filled = nullptr;
 };
 
 // The intermediate data of one direction: a pyramid of strips.
@@ -49,7 +55,8 @@ class ScanBuffer {
   Phases phases_;
   StripLevels pyramid_;
   AlignedImage<double> depth_, outward_;
-  AlignedImage<float> count_, nearest_, slanted_, deepest_;
+  AlignedImage<float> count_, nearest_, slanted_, deepest_, begin_, end_;
+  AlignedImage<float> rest_front_, rest_back_, rest_filled_;
 };
 
 // Relative gap in depth that joins neighbours' matter (screen/far_field/lattice_leaf.h).

@@ -29,9 +29,9 @@ void scan_strip(const StripJob& job);
 // The same for finite occluders: of each line's connected pieces of matter, the nearest.
 void scan_matter(const StripJob& job);
 
-// Maxima of two strips of the level below.
+// Maxima of two strips of the level below; of matter `b` may be null, where there is no second.
 void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out);
-void merge_matter(int lines, float slack, const RawStrip& a, const RawStrip& b,
+void merge_matter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
                   const RawStrip& out);
 
 // Running sums over all lines in their order, phase after phase; `strip` and `sums` are those of

@@ -36,6 +36,23 @@ HWY_INLINE void StorePiece(const Piece& p, const RawStrip& out, int j) {
   hn::StoreU(p.slanted, d, out.slanted + j);
 }
 
+HWY_INLINE void StoreMatter(const leaf::Matter& m, const RawStrip& out, int j) {
+  const D d;
+  StorePiece(m.first, out, j);
+  hn::StoreU(m.first.deepest, d, out.deepest + j);
+  hn::StoreU(m.first.begin, d, out.begin + j);
+  hn::StoreU(m.first.end, d, out.end + j);
+  hn::StoreU(m.rest.front, d, out.rest_front + j);
+  hn::StoreU(m.rest.back, d, out.rest_back + j);
+  hn::StoreU(m.rest.filled, d, out.rest_filled + j);
+}
+HWY_INLINE leaf::Matter LoadMatter(const RawStrip& s, int j) {
+  const D d;
+  auto load = [&](const float* values) HWY_ATTR { return hn::LoadU(d, values + j); };
+  return {{load(s.nearest), load(s.slanted), load(s.deepest), load(s.begin), load(s.end)},
+          {load(s.rest_front), load(s.rest_back), load(s.rest_filled)}};
+}
+
 void ScanStrip(const StripJob& job) {
   const D d;
   const V zero = hn::Zero(d), slope = hn::Set(d, job.slope),
@@ -57,52 +74,42 @@ void ScanStrip(const StripJob& job) {
 
 void ScanMatter(const StripJob& job) {
   const D d;
-  const V zero = hn::Zero(d), slope = hn::Set(d, job.slope),
-          ortho_offset = hn::Set(d, job.ortho_offset);
-  const V slack = hn::Set(d, job.slack), tiny = hn::Set(d, leaf::kSmallest);
+  const V slope = hn::Set(d, job.slope), ortho_offset = hn::Set(d, job.ortho_offset);
+  const V slack = hn::Set(d, job.slack);
   for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
     leaf::MatterScan m = leaf::start_matter_scan();
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
-      auto depth_of = [&](V g) HWY_ATTR {
-        return leaf::depth_of_lattice(hn::Max(g, tiny), ortho_offset, job.orthographic);
-      };
-      const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
-      const V back_a = hn::LoadU(d, row.back + j), back_b = hn::LoadU(d, row.next_back + j);
-      const bool first = row.blend < 0.5f;
-      const V g = leaf::between_matter(a, b, first ? a : b, hn::Set(d, row.blend), depth_of(a),
-                                       depth_of(b), back_a, back_b, slack);
-      const V depth = depth_of(g);
-      const V height =
-          leaf::slanted_height(slope, hn::Set(d, row.outward), depth, job.orthographic);
-      leaf::add_matter_row(hn::Gt(g, zero), depth, hn::Max(first ? back_a : back_b, depth), height,
-                           slack, m);
+      const leaf::Crossing c = leaf::cross_matter(
+          hn::LoadU(d, row.lattice + j), hn::LoadU(d, row.next + j), hn::LoadU(d, row.back + j),
+          hn::LoadU(d, row.next_back + j), hn::Set(d, row.blend),
+          leaf::leaf_truth(row.blend < 0.5f), slack, ortho_offset, job.orthographic);
+      const V outward = hn::Set(d, row.outward);
+      const V height = leaf::slanted_height(slope, outward, c.depth, job.orthographic);
+      leaf::add_matter_row(c.surface, c.depth, c.back, height, outward, slack, m);
     }
-    const Piece best = leaf::nearer_piece(m.piece, m.best);
-    StorePiece(best, job.out, j);
-    hn::StoreU(best.deepest, d, job.out.deepest + j);
+    StoreMatter(leaf::end_matter_scan(m), job.out, j);
   }
 }
 
-void MergeMatter(int lines, float slack, const RawStrip& a, const RawStrip& b,
+void MergeMatter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
                  const RawStrip& out) {
   const D d;
   for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    auto load = [&](const RawStrip& s) HWY_ATTR {
-      return Piece{hn::LoadU(d, s.nearest + j), hn::LoadU(d, s.slanted + j),
-                   hn::LoadU(d, s.deepest + j)};
-    };
-    const Piece merged = leaf::merged_matter(load(a), load(b), hn::Set(d, slack));
-    StorePiece(merged, out, j);
-    hn::StoreU(merged.deepest, d, out.deepest + j);
+    const leaf::Matter merged =
+        leaf::merged_matter(LoadMatter(a, j), b ? LoadMatter(*b, j) : leaf::no_matter(),
+                            hn::Set(d, slack), hn::Set(d, row));
+    StoreMatter(merged, out, j);
   }
 }
 
 void MergeStrips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
   const D d;
   for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    const Piece p{hn::LoadU(d, a.nearest + j), hn::LoadU(d, a.slanted + j), hn::Zero(d)};
-    const Piece q{hn::LoadU(d, b.nearest + j), hn::LoadU(d, b.slanted + j), hn::Zero(d)};
+    const Piece p{hn::LoadU(d, a.nearest + j), hn::LoadU(d, a.slanted + j), hn::Zero(d),
+                  hn::Zero(d), hn::Zero(d)};
+    const Piece q{hn::LoadU(d, b.nearest + j), hn::LoadU(d, b.slanted + j), hn::Zero(d),
+                  hn::Zero(d), hn::Zero(d)};
     StorePiece(leaf::merged_strips(p, q), out, j);
   }
 }
@@ -131,9 +138,9 @@ void scan_strip(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanStrip)(job); }
 
 void scan_matter(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanMatter)(job); }
 
-void merge_matter(int lines, float slack, const RawStrip& a, const RawStrip& b,
+void merge_matter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
                   const RawStrip& out) {
-  HWY_DYNAMIC_DISPATCH(MergeMatter)(lines, slack, a, b, out);
+  HWY_DYNAMIC_DISPATCH(MergeMatter)(lines, slack, row, a, b, out);
 }
 
 void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {

@@ -15,10 +15,8 @@ namespace obscura::far_field {
 // SliceRow::texels for receiver 0; those of receiver i are i further on.
 struct TapRead {
   std::ptrdiff_t upper, upper_next, lower, lower_next;
-  std::ptrdiff_t nearest;  // of the four
-  float wu, wv;            // weights of the next and of the lower texels
-  float along;             // rows outwards
-  bool centred;            // no other sample is nearer to this one's nearest row of texels
+  float wu, wv;  // weights of the next and of the lower texels
+  float along;   // rows outwards
 };
 
 // One interval likewise: receiver i averages the lines from entry first + i of `from` to entry
@@ -31,6 +29,7 @@ struct IntervalRead {
   // Finite occluders average nothing: line middle + i.
   RawStrip line;
   int middle;
+  float away;  // rows to the strip's middle
 };
 
 // One segment of one direction for the receivers of one phase of a row.

@@ -33,51 +33,10 @@ LEAF(Real) part_y(LEAF_IN(Part) p, Real point_depth, Real rows) {
   return leaf_nfma(rows, p.along, p.ray_length * (p.depth - point_depth));
 }
 
-// Where the matter of the point (x, y) at `depth` ends, on the same view ray.
-struct MatterEnd {
-  Real x, y;
-};
-LEAF(MatterEnd)
-matter_end(LEAF_IN(Part) p, Real x, Real y, Real depth, Real back, bool parallel) {
-  Real scale = back * leaf_reciprocal(depth);
-  Real camera = p.slice.camera;
-  MatterEnd e;
-  e.x = parallel ? x : x * scale;
-  e.y = parallel ? y - (back - depth) : leaf_fma(y - camera, scale, camera);
-  return e;
-}
-
 // A sum along the slice's tangent and zenith, weighted by w_k: the tangent is
 // (middle - along ray/|ray|) / across and the zenith -ray/|ray|, so these are its shares of
 // `middle` and, negated, of ray/|ray|, which all slices of a receiver have in common.
 LEAF(Real) share_of_middle(LEAF_IN(Part) p, Real sum_x) { return p.width * sum_x / p.across; }
 LEAF(Real) share_of_ray(LEAF_IN(Part) p, Real sum_y, Real of_middle) {
   return leaf_fma(p.width, sum_y, of_middle * p.along);
-}
-
-// A direct sample of finite matter: blended between four texels of one surface, a and b in one row,
-// c and e in the next, otherwise `nearest` of them, which is `nearest_back` deep. That one stands
-// at its own row only: taken at several places it would be a step of the height of a texel in every
-// surface that is not blended, which rods and edges would cast on themselves.
-struct MatterTap {
-  Real depth, back;
-  Truth smooth_here, surface;
-};
-LEAF(MatterTap)
-matter_tap(Real a, Real b, Real c, Real e, Real wu, Real wv, Real nearest, Real nearest_back,
-           Real first_back, Real slack, Real ortho_offset, bool parallel) {
-  Real tiny = real(kSmallest);
-  Real between = blended(blended(a, b, wu), blended(c, e, wu), wv);
-  Real least = leaf_min(leaf_min(a, b), leaf_min(c, e));
-  Real most = leaf_max(leaf_max(a, b), leaf_max(c, e));
-  Real far = near_depth_of_lattice(leaf_max(least, tiny), ortho_offset, parallel);
-  Real near = near_depth_of_lattice(leaf_max(most, tiny), ortho_offset, parallel);
-  MatterTap t;
-  t.smooth_here =
-      leaf_both(leaf_less(real(0.0f), least), leaf_less_equal(far - first_back, slack * near));
-  Real g = leaf_select(t.smooth_here, between, nearest);
-  t.depth = near_depth_of_lattice(leaf_max(g, tiny), ortho_offset, parallel);
-  t.back = leaf_max(nearest_back, t.depth);
-  t.surface = leaf_less(real(0.0f), g);
-  return t;
 }

@@ -93,11 +93,11 @@ FrameConstants half_frame_constants(const FrameShape& shape, const FrameView& vi
                          view::halve(view.camera, half_columns(shape), half_rows(shape)), view);
 }
 
-Status make_half_program(const Frame& frame, const std::function<Status(const Frame& half)>& make,
-                         Program* program) {
+Status make_half_program(const Frame& frame, bool back,
+                         const std::function<Status(const Frame& half)>& make, Program* program) {
   const FrameShape shape = half_shape(frame.shape);
   Geometry whole = add_geometry(frame, shape.normal_use != NormalUse::kNone, program);
-  if (shape.back_depth) whole.back = add_back_depth(frame, program);
+  if (back) whole.back = add_back_depth(frame, whole, program);
   const Geometry geometry = add_half_geometry(frame, whole, shape, program);
   const std::uint64_t bytes = sizeof(float) * shape.visible().pixels();
   const Slot visibility = program->add_region(bytes);

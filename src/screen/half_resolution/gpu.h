@@ -12,9 +12,10 @@ namespace obscura::gpu {
 FrameConstants half_frame_constants(const FrameShape& shape, const FrameView& view);
 
 // Adds a method at half resolution and what goes around it. `make` adds the method's passes for a
-// frame of half the size, whose geometry is there and whose results are regions.
-Status make_half_program(const Frame& frame, const std::function<Status(const Frame& half)>& make,
-                         Program* program);
+// frame of half the size, whose geometry is there and whose results are regions; with `back`, where
+// matter ends is part of that geometry.
+Status make_half_program(const Frame& frame, bool back,
+                         const std::function<Status(const Frame& half)>& make, Program* program);
 
 }  // namespace obscura::gpu
 

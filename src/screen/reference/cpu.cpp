@@ -29,10 +29,7 @@ class ReferenceMethod final : public Method {
       : settings_(settings), plan_(std::move(plan)) {}
 
   view::Needs needs() const override {
-    view::Needs needs{.normals = true};
-    needs.back_depth = settings_.occluder.kind == OccluderKind::kBackDepth;
-    if (settings_.occluder.kind == OccluderKind::kLayers) needs.layers = settings_.occluder.layers;
-    return needs;
+    return view::Needs{.normals = true}.with(settings_.occluder, true);
   }
   OutputKinds output_kinds() const override {
     return {true, true, true, true, true, static_cast<bool>(settings_.radiance)};

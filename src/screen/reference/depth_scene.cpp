@@ -121,7 +121,7 @@ void DepthScene::build_boxes(const view::Geometry& g, const Occluder& occluder,
       }
     });
     scene_.layers = {{g.depth.data() + middle, back_.data() + middle}};
-  } else if (occluder.kind == OccluderKind::kBackDepth) {
+  } else if (g.layers.empty()) {
     scene_.layers = {{g.depth.data() + middle, g.back_depth.data() + middle}};
   } else {
     scene_.layers.clear();

@@ -39,8 +39,8 @@ std::vector<MethodSettings> methods() {
   add_variants(&all, HorizonSettings{});
   add_variants(&all, MipmapSettings{});
   FarFieldSettings far;
-  for (OccluderKind kind :
-       {OccluderKind::kSolid, OccluderKind::kThickness, OccluderKind::kBackDepth}) {
+  for (OccluderKind kind : {OccluderKind::kSolid, OccluderKind::kThickness,
+                            OccluderKind::kBackDepth, OccluderKind::kAuto}) {
     for (FarFieldPreset preset : {FarFieldPreset::kFast, FarFieldPreset::kHigh}) {
       far.occluder = {.kind = kind, .thickness = kind == OccluderKind::kThickness ? 1.0f : 0.0f};
       far.preset = preset;

@@ -40,7 +40,7 @@ view::Geometry rough(int width, int height, bool orthographic, std::uint64_t see
 
 // One row of a scanned line.
 struct Step {
-  double depth, height, back;
+  double depth, height, back, outward;
 };
 
 // What a line finds in row `row`, counted outwards; false: no surface. The lattice between two
@@ -69,14 +69,27 @@ bool step_of(const view::Geometry& g, const Plane& p, const Direction& d, const 
   }
   if (!std::isfinite(step->depth)) return false;
   step->back = std::max(depth_at(g.back_depth, nearest), step->depth);
-  const double outward = d.sign * (v - p.center_v) * p.scale_v * (p.orthographic ? 1 : step->depth);
-  step->height = slope * outward - step->depth;
+  step->outward = d.sign * (v - p.center_v) * p.scale_v;
+  step->height = slope * step->outward * (p.orthographic ? 1 : step->depth) - step->depth;
   return true;
 }
 
 struct Found {
   double nearest = kInf, slanted = -kInf, deepest = 0;
+  double begin = 0, end = 0;  // outward, of the first and the last row
+  double rest_front = kInf, rest_back = 0, rest_filled = 0;  // other pieces
+
+  void add_rest(const Found& f) {
+    if (!std::isfinite(f.nearest)) return;
+    rest_front = std::min(rest_front, f.nearest);
+    rest_back = std::max(rest_back, f.deepest);
+    rest_filled += f.deepest - f.nearest;
+  }
 };
+Found found_in(const RawStrip& r, int at) {
+  return {r.nearest[at], r.slanted[at],    r.deepest[at],   r.begin[at],
+          r.end[at],     r.rest_front[at], r.rest_back[at], r.rest_filled[at]};
+}
 
 Found maxima(const std::vector<Step>& steps) {
   Found f;
@@ -84,6 +97,10 @@ Found maxima(const std::vector<Step>& steps) {
     f.nearest = std::min(f.nearest, s.depth);
     f.slanted = std::max(f.slanted, s.height);
     f.deepest = std::max(f.deepest, s.back);
+  }
+  if (!steps.empty()) {
+    f.begin = steps.front().outward;
+    f.end = steps.back().outward;
   }
   return f;
 }
@@ -171,7 +188,7 @@ TEST(Scan, FindsTheMaximaOfEveryLineAtEveryLevel) {
 }
 
 // A line's matter in a strip falls into runs of rows that touch; the run with the nearest point is
-// what is kept.
+// what is kept, the others in sum.
 TEST(Scan, KeepsTheNearestConnectedPieceOfMatter) {
   std::int64_t several = 0;
   scan_all(Occluder::back_depth(),
@@ -200,6 +217,10 @@ TEST(Scan, KeepsTheNearestConnectedPieceOfMatter) {
                    const Found f = maxima(run);
                    if (f.nearest < expected.nearest) expected = f;
                  }
+                 for (const auto& run : runs) {
+                   const Found f = maxima(run);
+                   if (f.nearest != expected.nearest) expected.add_rest(f);
+                 }
                  several += runs.size() > 1;
                  const RawStrip raw = buffer->raw(0, strip, line % buffer->phases());
                  const int at = line / buffer->phases();
@@ -210,6 +231,15 @@ TEST(Scan, KeepsTheNearestConnectedPieceOfMatter) {
                  ASSERT_NEAR(raw.nearest[at], expected.nearest, 2e-6 * expected.nearest);
                  ASSERT_NEAR(raw.slanted[at], expected.slanted, 4e-6 * expected.nearest);
                  ASSERT_NEAR(raw.deepest[at], expected.deepest, 2e-6 * expected.deepest);
+                 ASSERT_NEAR(raw.begin[at], expected.begin, 1e-5);
+                 ASSERT_NEAR(raw.end[at], expected.end, 1e-5);
+                 if (runs.size() == 1) {
+                   ASSERT_EQ(raw.rest_front[at], kInf);
+                 } else {
+                   ASSERT_NEAR(raw.rest_front[at], expected.rest_front, 1e-5);
+                   ASSERT_NEAR(raw.rest_back[at], expected.rest_back, 1e-5);
+                 }
+                 ASSERT_NEAR(raw.rest_filled[at], expected.rest_filled, 1e-4);
                }
              }
            });
@@ -217,42 +247,55 @@ TEST(Scan, KeepsTheNearestConnectedPieceOfMatter) {
 }
 
 // A strip of the pyramid is made of the two below it: the nearer one's piece, and with it the other
-// one's where both touch.
+// one's where both touch in neighbouring rows.
 TEST(Scan, JoinsTouchingMatterOnTheWayUp) {
   std::int64_t joined = 0, apart = 0;
-  scan_all(Occluder::back_depth(),
-           [&](const view::Geometry&, const Plane& p, const Direction&, const LineLayout& layout,
-               const ScanCase&, ScanBuffer* buffer) {
-             const float slack = join_slack(p);
-             for (int level = 1; level < buffer->levels(); ++level) {
-               for (int strip = 0; strip < buffer->strips(level); ++strip) {
-                 for (int line = 0; line < layout.lines; ++line) {
-                   const int phase = line % buffer->phases(), at = line / buffer->phases();
-                   auto found = [&](int l, int s) {
-                     const RawStrip r = buffer->raw(l, s, phase);
-                     return Found{r.nearest[at], r.slanted[at], r.deepest[at]};
-                   };
-                   Found near = found(level - 1, 2 * strip);
-                   if (2 * strip + 1 < buffer->strips(level - 1)) {
-                     Found far = found(level - 1, 2 * strip + 1);
-                     if (far.nearest < near.nearest) std::swap(near, far);
-                     const bool touch =
-                         std::isfinite(far.nearest) &&
-                         far.nearest - std::min(near.deepest, far.deepest) <= slack * near.nearest;
-                     if (touch) {
-                       near.slanted = std::max(near.slanted, far.slanted);
-                       near.deepest = std::max(near.deepest, far.deepest);
-                     }
-                     ++(touch ? joined : apart);
-                   }
-                   const Found f = found(level, strip);
-                   ASSERT_EQ(f.nearest, near.nearest);
-                   ASSERT_EQ(f.slanted, near.slanted);
-                   ASSERT_EQ(f.deepest, near.deepest);
-                 }
-               }
-             }
-           });
+  scan_all(
+      Occluder::back_depth(), [&](const view::Geometry&, const Plane& p, const Direction&,
+                                  const LineLayout& layout, const ScanCase&, ScanBuffer* buffer) {
+        const float slack = join_slack(p);
+        for (int level = 1; level < buffer->levels(); ++level) {
+          for (int strip = 0; strip < buffer->strips(level); ++strip) {
+            for (int line = 0; line < layout.lines; ++line) {
+              const int phase = line % buffer->phases(), at = line / buffer->phases();
+              auto found = [&](int l, int s) {
+                const RawStrip r = buffer->raw(l, s, phase);
+                return found_in(r, at);
+              };
+              Found near = found(level - 1, 2 * strip);
+              if (2 * strip + 1 < buffer->strips(level - 1)) {
+                Found far = found(level - 1, 2 * strip + 1);
+                const Found inner = near, outer = far;
+                if (far.nearest < near.nearest) std::swap(near, far);
+                near.rest_front = std::min(near.rest_front, far.rest_front);
+                near.rest_back = std::max(near.rest_back, far.rest_back);
+                near.rest_filled += far.rest_filled;
+                const bool touch =
+                    std::isfinite(far.nearest) &&
+                    far.nearest - std::min(near.deepest, far.deepest) <= slack * near.nearest &&
+                    outer.begin - inner.end < 1.5f * p.scale_v;
+                if (!touch) near.add_rest(far);
+                if (touch) {
+                  near.begin = inner.begin;
+                  near.end = outer.end;
+                  near.slanted = std::max(near.slanted, far.slanted);
+                  near.deepest = std::max(near.deepest, far.deepest);
+                }
+                ++(touch ? joined : apart);
+              }
+              const Found f = found(level, strip);
+              ASSERT_EQ(f.nearest, near.nearest);
+              ASSERT_EQ(f.slanted, near.slanted);
+              ASSERT_EQ(f.deepest, near.deepest);
+              ASSERT_EQ(f.begin, near.begin);
+              ASSERT_EQ(f.end, near.end);
+              ASSERT_EQ(f.rest_front, near.rest_front);
+              ASSERT_EQ(f.rest_back, near.rest_back);
+              ASSERT_NEAR(f.rest_filled, near.rest_filled, 1e-4);
+            }
+          }
+        }
+      });
   EXPECT_GT(joined, 1000);
   EXPECT_GT(apart, 1000);
 }
@@ -301,7 +344,7 @@ TEST(Scan, SumsAreAsPreciseAsTheDepths) {
     nearest[i] = static_cast<float>(1000 + random.uniform());
     slanted[i] = -nearest[i] + static_cast<float>(100 * random.uniform());
   }
-  sum_lines(kLines, 1, 0, 1.0f, {nearest.data(), slanted.data(), nullptr},
+  sum_lines(kLines, 1, 0, 1.0f, {.nearest = nearest.data(), .slanted = slanted.data()},
             {depth.data() + kPad, outward.data() + kPad, count.data() + kPad});
   double worst = 0, worst_outward = 0, worst_float = 0;
   float running = 0;

@@ -69,6 +69,7 @@ struct MethodInfo<ReferenceSettings> {
   static constexpr const char* summary = "Reference: rays against the depth image itself";
   static constexpr const char* page = "docs/methods/reference.md";
   static constexpr bool on_vulkan = false;
+  static constexpr bool takes_layers = true;
 };
 
 OBSCURA_API Status validate(const ReferenceSettings& settings);

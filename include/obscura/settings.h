@@ -85,6 +85,7 @@ const char* enum_name(E value) {
 //   static constexpr const char* summary;  one line, without a full stop
 //   static constexpr const char* page;     of the documentation: "docs/methods/far-field.md"
 //   static constexpr bool on_vulkan;       whether vulkan::Recorder takes it
+//   static constexpr bool takes_layers;    of those with an occluder that take depth layers: true
 template <class Settings>
 struct MethodInfo;
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
+#include "core/large_array.h"
 #include "obscura/executor.h"
 #include "obscura/views.h"
 #include "terrain/sweep_kernel.h"
@@ -20,7 +20,7 @@ class TerrainPlane {
     height_ = height;
     pitch_ = (static_cast<std::ptrdiff_t>(width) + 2 * kTerrainMargin + 15) / 16 * 16;
     const std::size_t needed = static_cast<std::size_t>(pitch_) * (height + 2);
-    if (values_.size() < needed) values_.resize(needed);
+    if (values_.size() < needed) values_ = LargeArray<float>(needed);
   }
 
   int width() const { return width_; }
@@ -35,10 +35,21 @@ class TerrainPlane {
  private:
   int width_ = 0, height_ = 0;
   std::ptrdiff_t pitch_ = 0;
-  std::vector<float> values_;
+  LargeArray<float> values_;
 };
 
 inline constexpr int kTerrainTile = 64;
+
+// What turns a tile between the two grids: rows of both are read and written in one piece.
+class TileBuffer {
+ public:
+  float* row(int y) { return values_ + y * kPitch; }
+
+ private:
+  // Not a power of two: a column then lies in many sets of the cache.
+  static constexpr int kPitch = kTerrainTile + 1;
+  float values_[kTerrainTile * kPitch];
+};
 
 // Calls body(x0, y0, x1, y1) for tiles of an image, on threads. In a tile, an image and a
 // transposed one are both read from the cache.

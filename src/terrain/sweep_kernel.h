@@ -3,7 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+
+#include "core/large_array.h"
 
 namespace obscura {
 
@@ -20,7 +21,7 @@ inline constexpr float kChainEnd = 0.5f * kNoHeight;
 // one below, too.
 inline constexpr int kTerrainMargin = 64;
 // Lines that are swept together.
-inline constexpr int kLinesLog2 = 6, kLines = 1 << kLinesLog2;
+inline constexpr int kLinesLog2 = 7, kLines = 1 << kLinesLog2;
 // The most rows that are marched sample by sample; so far sideways the margin reaches.
 inline constexpr int kMostMarched = 24;
 
@@ -74,10 +75,10 @@ class TerrainScratch {
   // For grids of up to so many rows, and windows of any length if `windows`.
   void resize(int rows, bool windows);
 
-  std::vector<float> horizon_points;  // {height, slot} by row and line
-  std::vector<float> line_heights;
-  std::vector<float> block_points;  // as horizon_points, looking forth
-  std::vector<float> slopes;
+  LargeArray<float> horizon_points;  // {height, slot} by row and line
+  LargeArray<float> line_heights;
+  LargeArray<float> block_points;  // as horizon_points, looking forth
+  LargeArray<float> slopes;
 };
 
 int terrain_blocks(const TerrainSweep& sweep);

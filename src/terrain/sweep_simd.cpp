@@ -282,11 +282,11 @@ HWY_EXPORT(SweepBlock);
 
 void TerrainScratch::resize(int rows, bool windows) {
   const std::size_t row = kLines;
-  horizon_points.resize(2 * row * (static_cast<std::size_t>(rows) + 1));
+  horizon_points = LargeArray<float>(2 * row * (static_cast<std::size_t>(rows) + 1));
   // A row without data stands first.
-  line_heights.resize(row * (1 + (windows ? static_cast<std::size_t>(rows) + 1 : 2)));
-  block_points.resize(2 * row * (windows ? static_cast<std::size_t>(rows) + 1 : 1));
-  slopes.resize(row);
+  line_heights = LargeArray<float>(row * (1 + (windows ? static_cast<std::size_t>(rows) + 1 : 2)));
+  block_points = LargeArray<float>(2 * row * (windows ? static_cast<std::size_t>(rows) + 1 : 1));
+  slopes = LargeArray<float>(row);
 }
 
 int terrain_blocks(const TerrainSweep& s) {

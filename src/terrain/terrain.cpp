@@ -161,13 +161,18 @@ class Terrain {
     });
     const double factor = pass.sign * settings_.z_factor;
     for_tiles(size, executor_, [&](int x0, int y0, int x1, int y1) {
+      TileBuffer tile;
       for (int y = y0; y < y1; ++y) {
+        float* to = transposed ? tile.row(y - y0) : heights_.row(y) + x0;
         for (int x = x0; x < x1; ++x) {
           const float height = model_.heights(x, y);
-          if (!has_height(model_, height)) continue;
           const auto value = static_cast<float>(factor * (double{height} - base_));
-          (transposed ? heights_.row(x)[y] : heights_.row(y)[x]) = value;
+          to[x - x0] = has_height(model_, height) ? value : kNoHeight;
         }
+      }
+      if (!transposed) return;
+      for (int x = x0; x < x1; ++x) {
+        for (int y = y0; y < y1; ++y) heights_.row(x)[y] = tile.row(y - y0)[x - x0];
       }
     });
   }
@@ -215,23 +220,30 @@ class Terrain {
   // is all.
   void fold(const TerrainPlane& sums, const Wanted& wanted, const Band& band, bool transposed,
             bool whole = false) {
-    const double factor = wanted.factor / settings_.azimuths;
+    const auto factor = static_cast<float>(wanted.factor / settings_.azimuths);
+    const auto start = static_cast<float>(wanted.start);
+    const auto least = static_cast<float>(wanted.least), most = static_cast<float>(wanted.most);
     const bool first = whole || !transposed, last = whole || transposed;
-    auto fold_row = [&](int y, int x0, int x1) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    auto fold_row = [&](int y, int x0, int x1, const float* sum) {
       for (int x = x0; x < x1; ++x) {
         float& out = wanted.view(x, y);
-        if (!has_height(model_, model_.heights(x, y))) {
-          out = std::numeric_limits<float>::quiet_NaN();
-          continue;
-        }
-        const float sum = transposed ? sums.row(x)[y] : sums.row(y)[x];
-        const double value = (first ? wanted.start : double{out}) + factor * sum;
-        out = static_cast<float>(last ? std::clamp(value, wanted.least, wanted.most) : value);
+        float value = (first ? start : out) + factor * sum[x - x0];
+        if (last) value = std::clamp(value, least, most);
+        out = has_height(model_, model_.heights(x, y)) ? value : kNone;
       }
     };
     for_tiles({model_.heights.width, band.end - band.begin}, executor_,
               [&](int x0, int y0, int x1, int y1) {
-                for (int y = y0; y < y1; ++y) fold_row(band.begin + y, x0, x1);
+                y0 += band.begin;
+                y1 += band.begin;
+                TileBuffer tile;
+                for (int x = x0; transposed && x < x1; ++x) {
+                  for (int y = y0; y < y1; ++y) tile.row(y - y0)[x - x0] = sums.row(x)[y];
+                }
+                for (int y = y0; y < y1; ++y) {
+                  fold_row(y, x0, x1, transposed ? tile.row(y - y0) : sums.row(y) + x0);
+                }
               });
   }
 

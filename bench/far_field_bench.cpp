@@ -29,7 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 void far_field_run(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
   const tools::DepthInput input = guarded(width, height);
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   settings.directions = 8;
   settings.near_field = state.range(1) != 0;
   settings.near_step = NearStep::of(1);
@@ -74,7 +74,7 @@ BENCHMARK(far_field_run)
 void far_field_direction(benchmark::State& state) {
   const int height = static_cast<int>(state.range(0)), width = height * 16 / 9;
   const tools::DepthInput input = guarded(width, height);
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   settings.falloff.radius = 1;
   Estimator estimator;
   const DepthField field = input.field();
@@ -121,7 +121,7 @@ void far_field_scan(benchmark::State& state) {
            .ok()) {
     return state.SkipWithError("the input was refused");
   }
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   settings.directions = 8;
   const auto directions = far_field::make_directions(settings);
   const int margin = far_field::sideways_reach(directions, interval) + 32;

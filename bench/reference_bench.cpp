@@ -89,7 +89,7 @@ void run(benchmark::State& state, const ReferenceSettings& settings, const char*
 // Goal: 3 million rays per second and thread on the hall at 1280x720, with a radius as long as the
 // hall.
 void reference(benchmark::State& state, Occluder occluder) {
-  ReferenceSettings settings;
+  ReferenceSettings settings{.occluder = Occluder::solid()};
   settings.falloff.radius = 20;
   settings.occluder = occluder;
   settings.rays = static_cast<int>(state.range(0));

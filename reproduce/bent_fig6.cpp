@@ -166,7 +166,9 @@ Status reproduce_bent_fig6(const ReproduceContext& context, Report* report, std:
       return compare_lights(scene + name, rendering, *buffers, lights, truths, *executor, report,
                             sums);
     };
-    if (Status s = rows(FarFieldSettings{.falloff = falloff}, "", &far_field, &swept); !s.ok()) {
+    if (Status s = rows(FarFieldSettings{.falloff = falloff, .occluder = Occluder::solid()}, "",
+                        &far_field, &swept);
+        !s.ok()) {
       return s;
     }
     if (Status s = rows(HemisphereSettings{.falloff = falloff, .samples = 16, .steps = 3},
@@ -174,8 +176,10 @@ Status reproduce_bent_fig6(const ReproduceContext& context, Report* report, std:
         !s.ok()) {
       return s;
     }
-    if (Status s = rows(ReferenceSettings{.falloff = falloff, .rays = kRays, .every = kEvery},
-                        ", traced", &traced, &exact);
+    if (Status s = rows(
+            ReferenceSettings{
+                .falloff = falloff, .occluder = Occluder::solid(), .rays = kRays, .every = kEvery},
+            ", traced", &traced, &exact);
         !s.ok()) {
       return s;
     }

@@ -62,13 +62,14 @@ std::vector<Entry> entries(const Falloff& falloff) {
   auto hemisphere = [&](int samples, int steps) {
     return HemisphereSettings{.falloff = falloff, .samples = samples, .steps = steps};
   };
-  return {
-      {"8 samples, no steps", hemisphere(8, 0)},
-      {"8 samples, 3 steps", hemisphere(8, 3)},
-      {"16 samples, 3 steps", hemisphere(16, 3)},
-      {"16 samples, 8 steps", hemisphere(16, 8)},
-      {"far field, fast", FarFieldSettings{.falloff = falloff, .preset = FarFieldPreset::kFast}},
-      {"far field", FarFieldSettings{.falloff = falloff}}};
+  return {{"8 samples, no steps", hemisphere(8, 0)},
+          {"8 samples, 3 steps", hemisphere(8, 3)},
+          {"16 samples, 3 steps", hemisphere(16, 3)},
+          {"16 samples, 8 steps", hemisphere(16, 8)},
+          {"far field, fast",
+           FarFieldSettings{
+               .falloff = falloff, .occluder = Occluder::solid(), .preset = FarFieldPreset::kFast}},
+          {"far field", FarFieldSettings{.falloff = falloff, .occluder = Occluder::solid()}}};
 }
 
 }  // namespace

@@ -22,10 +22,11 @@ struct ConeEntry {
   MethodSettings settings;
 };
 std::vector<ConeEntry> cone_entries(const Falloff& falloff) {
-  return {
-      {"hemisphere", HemisphereSettings{.falloff = falloff, .samples = 16, .steps = 3}},
-      {"far field, fast", FarFieldSettings{.falloff = falloff, .preset = FarFieldPreset::kFast}},
-      {"far field", FarFieldSettings{.falloff = falloff}}};
+  return {{"hemisphere", HemisphereSettings{.falloff = falloff, .samples = 16, .steps = 3}},
+          {"far field, fast",
+           FarFieldSettings{
+               .falloff = falloff, .occluder = Occluder::solid(), .preset = FarFieldPreset::kFast}},
+          {"far field", FarFieldSettings{.falloff = falloff, .occluder = Occluder::solid()}}};
 }
 constexpr int kImportanceSamples = 32;
 struct SsdoEntry {

@@ -71,7 +71,7 @@ std::vector<std::pair<const char*, MethodSettings>> methods(const Rendering& ren
   hbao.variant = HorizonVariant::kClassic;
   HorizonSettings slices = hbao;
   slices.variant = HorizonVariant::kSlices;
-  FarFieldSettings far_field, fast;
+  FarFieldSettings far_field{.occluder = Occluder::solid()}, fast = far_field;
   far_field.falloff = fast.falloff = falloff;
   fast.preset = FarFieldPreset::kFast;
   return {{"Crytek2D, 16 samples", crytek2d},    {"Crytek3D, 8 samples, 3 steps", crytek3d},

@@ -139,7 +139,7 @@ std::array<float, 9> world_from_eye(const Rendering& rendering) {
 
 Status lit_truth(const Rendering& rendering, const Environment& light, int rays, int every,
                  Executor& executor, Image* rgb) {
-  ReferenceSettings settings;
+  ReferenceSettings settings{.occluder = Occluder::solid()};
   settings.falloff = bent_falloff(rendering);
   settings.rays = rays;
   settings.every = every;

@@ -38,7 +38,7 @@ Status load_images(const ReproduceContext& context, Executor& executor, std::vec
 // A point of the sweep.
 struct Setting {
   std::string name;
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   double milliseconds = 0, e_a = 0;  // of processor time; means over the images
   bool best = false;                 // nothing quicker is as close
 };
@@ -52,7 +52,7 @@ std::vector<Setting> sweep() {
   };
   const NearStep steps[] = {NearStep::of(2), NearStep::of(1), NearStep::of(0.5f),
                             NearStep::of(0.25f), NearStep::adaptive()};
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   for (const int directions : {8, 12, 16, 24, 32}) {
     for (const int segments : {1, 2, 3}) {
       for (const NearStep& step : steps) {

@@ -171,14 +171,14 @@ Status compare_ffao(const FfaoView& view, const std::vector<float>& visibility,
 }
 
 FarFieldSettings far_field_for(const FfaoView& view, int directions, int segments) {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff = view.falloff;
   s.directions = directions;
   s.segments = segments;
   return s;
 }
 FarFieldSettings far_field_for(const FfaoView& view, FarFieldPreset preset) {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff = view.falloff;
   s.preset = preset;
   return s;
@@ -197,7 +197,7 @@ MipmapSettings mipmap_for(const FfaoView& view, int directions) {
   return s;
 }
 ReferenceSettings tracer_for(const FfaoView& view, int rays) {
-  ReferenceSettings s;
+  ReferenceSettings s{.occluder = Occluder::solid()};
   s.falloff = view.falloff;
   s.rays = rays;
   s.seed = 2;  // not the truth's

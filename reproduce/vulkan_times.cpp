@@ -29,7 +29,7 @@ constexpr const char* kGeForce = "GeForce GTX 560 Ti";
 constexpr const char* kQuadro = "Quadro FX 4800";
 
 FarFieldSettings far_field(int directions, bool near_field, int separable) {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.directions = directions;
   s.near_field = near_field;
   s.separable = separable;
@@ -37,9 +37,9 @@ FarFieldSettings far_field(int directions, bool near_field, int separable) {
 }
 
 std::vector<Row> far_field_rows(bool large) {
-  FarFieldSettings fast;
+  FarFieldSettings fast{.occluder = Occluder::solid()};
   fast.preset = FarFieldPreset::kFast;
-  FarFieldSettings balanced;
+  FarFieldSettings balanced{.occluder = Occluder::solid()};
   balanced.preset = FarFieldPreset::kBalanced;
   MipmapSettings mipmap;
   std::vector<Row> rows = {

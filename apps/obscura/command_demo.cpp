@@ -48,7 +48,7 @@ Status run_timed(const std::string& label, const AnySettings& settings, const Lo
 
 // The pictures say nothing of times, which depend on the machine.
 Status write_pictures(const DemoCommand& c, const std::string& name, const DepthField& field,
-                      const Run& method, const Run& truth) {
+                      const Run& method, const Run& traced_run, const Run& world_run) {
   auto visible = [&](const ImageView<const float>& v) {
     return ImageView<const float>(&v(field.guard_band.left, field.guard_band.top),
                                   field.visible().width, field.visible().height, v.row_stride);
@@ -58,15 +58,17 @@ Status write_pictures(const DemoCommand& c, const std::string& name, const Depth
   const tools::Image normals = tools::vector_picture(
       {visible(field.normals.x), visible(field.normals.y), visible(field.normals.z)});
   const tools::Image fast = tools::grey_picture(method.view());
-  const tools::Image traced = tools::grey_picture(truth.view());
-  const tools::Image error = tools::error_picture(method.view(), truth.view(), mask);
+  const tools::Image traced = tools::grey_picture(traced_run.view());
+  const tools::Image world = tools::grey_picture(world_run.view());
+  const tools::Image error = tools::error_picture(method.view(), world_run.view(), mask);
   const tools::Image comparison =
       tools::beside({{kDefaultMethod, fast},
-                     {fmt::format("ray-traced reference, {} rays per pixel", kTruthRays), traced},
-                     {"difference: white 0 %, black 20 % and more", error}});
+                     {fmt::format("rays in the depth image, {} per pixel", kTruthRays), traced},
+                     {fmt::format("rays in the scene, {} per pixel", kTruthRays), world},
+                     {"difference to the scene: white 0 %, black 20 % and more", error}});
   const std::pair<const char*, const tools::Image*> pictures[] = {
-      {"depth", &depth},  {"normals", &normals}, {"visibility", &fast},
-      {"truth", &traced}, {"error", &error},     {"comparison", &comparison}};
+      {"depth", &depth}, {"normals", &normals}, {"visibility", &fast},      {"truth", &traced},
+      {"world", &world}, {"error", &error},     {"comparison", &comparison}};
   for (const auto& [what, picture] : pictures) {
     const std::string path = fmt::format("{}/{}-{}.png", c.folder, name, what);
     if (Status s = tools::write_image(path, *picture); !s.ok()) return s;
@@ -90,30 +92,37 @@ Status demo_scene(const DemoCommand& c, const std::string& name, double length, 
   set_radius(radius, &fast);
   ReferenceSettings reference{.rays = kTruthRays};
   reference.falloff.radius = radius;
-  Run method, truth;
+  tools::GeometricSettings scene{.rays = kTruthRays};
+  scene.falloff.radius = radius;
+  Run method, truth, world;
   Status s = run_timed(name, fast, input, c.threads, quiet, &method);
   if (s.ok()) {
     s = run_timed(name + ", truth", MethodSettings(reference), input, c.threads, quiet, &truth);
   }
-  if (s.ok()) s = write_pictures(c, name, field, method, truth);
+  if (s.ok()) s = run_timed(name + ", scene", scene, input, c.threads, quiet, &world);
+  if (s.ok()) s = write_pictures(c, name, field, method, truth, world);
   if (!s.ok()) return s;
 
-  tools::Comparison r;
+  tools::Comparison r, w;
   const ImageView<const float> mask(&field.depth(field.guard_band.left, field.guard_band.top),
                                     field.visible().width, field.visible().height,
                                     field.depth.row_stride);
   if (s = tools::compare(method.view(), truth.view(), mask, &r); !s.ok()) return s;
+  if (s = tools::compare(method.view(), world.view(), mask, &w); !s.ok()) return s;
   report->add(name, "time", 1e3 * method.seconds, "ms");
   report->add(name, "time of the truth", 1e3 * truth.seconds, "ms");
   report->add(name, "e_A", r.e_a, "%");
   report->add(name, "e_<5%", r.within_5, "%");
   report->add(name, "bias", r.bias, "%");
+  report->add(name, "e_A to the scene", w.e_a, "%");
+  report->add(name, "bias to the scene", w.bias, "%");
   if (!quiet) {
     fmt::print(
         "{}: {}x{}, falloff length {:.3g}: {} {:.2f} s, truth {:.2f} s, e_A {:.2f} %, "
-        "e_<5% {:.1f} %, bias {:+.2f} %: {}/{}-*.png\n",
+        "e_<5% {:.1f} %, bias {:+.2f} %; to the scene itself e_A {:.2f} %, bias {:+.2f} %: "
+        "{}/{}-*.png\n",
         name, field.visible().width, field.visible().height, radius, kDefaultMethod, method.seconds,
-        truth.seconds, r.e_a, r.within_5, r.bias, c.folder, name);
+        truth.seconds, r.e_a, r.within_5, r.bias, w.e_a, w.bias, c.folder, name);
   }
   return {};
 }

@@ -55,7 +55,7 @@ struct OBSCURA_API SettingText<NearStep> {
 // auto, solid, thickness and back-depth.
 struct FarFieldSettings {
   Falloff falloff{};
-  Occluder occluder{};
+  Occluder occluder = Occluder::automatic();
   FarFieldPreset preset = FarFieldPreset::kNone;
   int directions = 16;
   int segments = 2;

@@ -26,7 +26,7 @@ struct EnumNames<RayWeighting> {
 // falloff and any occluder.
 struct ReferenceSettings {
   Falloff falloff{};
-  Occluder occluder{};
+  Occluder occluder = Occluder::automatic();
   int rays = 1024;
   RayWeighting weighting = RayWeighting::kCosine;
   int every = 1;

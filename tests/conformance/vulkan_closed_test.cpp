@@ -31,13 +31,13 @@ TEST_F(VulkanClosed, PointsHaveOneDirectionAndOneAngle) {
   classic.variant = HorizonVariant::kClassic;
   classic.falloff.radius = 1e6f;  // its weights fall with the distance
   classic.angle_bias = 0;
-  FarFieldSettings far_field;
+  FarFieldSettings far_field{.occluder = Occluder::solid()};
   far_field.falloff = falloff;
   PointSettings point;
   point.pattern = PointPattern::kScreen;
   point.falloff = falloff;
   point.blur = false;
-  ReferenceSettings traced;
+  ReferenceSettings traced{.occluder = Occluder::solid()};
   traced.falloff = falloff;
   traced.rays = 64;
   const struct {

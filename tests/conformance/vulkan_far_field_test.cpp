@@ -6,7 +6,7 @@ namespace {
 using VulkanFarField = VulkanTest;
 
 FarFieldSettings far_field(float radius) {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = radius;
   s.directions = 8;
   s.segments = 1;
@@ -153,7 +153,8 @@ TEST_F(VulkanFarField, MatterAsThickAsWideAgrees) {
         FarFieldSettings s = far_field(1);
         s.occluder = Occluder::automatic();
         s.resolution = resolution;
-        expect_same(in.field(), s, "width " + std::to_string(w), true);
+        // Filling in enlarges what a sector's rounding moves in directions.
+        expect_same(in.field(), s, "width " + std::to_string(w), resolution == Resolution::kFull);
       }
     }
   }

@@ -24,7 +24,10 @@ TEST_F(VulkanHalfResolution, EveryMethodAgrees) {
   synthetic::Input in = scene(99, 60, 3);
   in.guard_band = {.left = 3, .right = 2, .top = 1, .bottom = 0};
   expect_same(in.field(), half<AreaSettings>(), "area");
-  expect_same(in.field(), half<FarFieldSettings>(), "far-field", true);
+  expect_same(in.field(), half<FarFieldSettings>(), "far-field");
+  FarFieldSettings solid = half<FarFieldSettings>();
+  solid.occluder = Occluder::solid();
+  expect_same(in.field(), solid, "far-field, solid", true);
   FarFieldSettings shared = half<FarFieldSettings>();
   shared.directions = 18;
   shared.separable = 3;

@@ -76,7 +76,7 @@ synthetic::Input scene(bool orthographic = false) {
 }
 
 FarFieldSettings settings_of(float radius, const Occluder& occluder = {}) {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = radius;
   s.occluder = occluder;
   return s;
@@ -125,7 +125,7 @@ TEST(FarFieldDirections, AgreeWithTracedOnes) {
   const synthetic::Input in = scene();
   for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.5f)}) {
     const Result fast = run(in.field(), settings_of(1, occluder));
-    ReferenceSettings reference;
+    ReferenceSettings reference{.occluder = Occluder::solid()};
     reference.falloff.radius = 1;
     reference.occluder = occluder;
     reference.rays = 512;
@@ -204,7 +204,7 @@ TEST(FarFieldSharing, TinyImagesAndWrongSettingsAreAnswered) {
     }
   }
   auto message = [](auto change) {
-    FarFieldSettings s;
+    FarFieldSettings s{.occluder = Occluder::solid()};
     change(s);
     Estimator e;
     return std::string(Estimator::create(s, 8, 8, &e).message());

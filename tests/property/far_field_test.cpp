@@ -31,7 +31,7 @@ std::vector<float> visibility(const DepthField& field, const FarFieldSettings& s
 }
 
 FarFieldSettings quick() {
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.directions = 8;
   s.near_step = NearStep::of(1);
   return s;
@@ -70,7 +70,7 @@ TEST(FarField, MeetsTheErrorBarsOnTheDepthImages) {
     field.guard_band = GuardBand::symmetric(64, 36);
     field.camera = {
         .scale_x = 1 / 311.769f, .scale_y = 1 / 311.769f, .center_u = 384, .center_v = 216};
-    FarFieldSettings s;
+    FarFieldSettings s{.occluder = Occluder::solid()};
     s.falloff.radius = c.radius;
     auto compare = [&](const FarFieldSettings& settings) {
       const std::vector<float> v = visibility(field, settings, 2);
@@ -143,7 +143,7 @@ TEST(FarField, LightPassesBehindThinMatter) {
       back[y * 160 + x] = 5.1f;
     }
   }
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = kInf;
   const std::size_t beside = 60 * 160 + 55;  // on the wall, five pixels from the plate's outline
   const float solid = visibility(in.field(), s)[beside];
@@ -187,9 +187,9 @@ TEST(FarField, FiniteMatterAgreesWithRays) {
   }
   DepthField field = in.field();
   field.back_depth = {back.data(), kWidth, kHeight};
-  FarFieldSettings s;
+  FarFieldSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = 1.5f;
-  ReferenceSettings rays;
+  ReferenceSettings rays{.occluder = Occluder::solid()};
   rays.falloff = s.falloff;
   for (const Occluder& occluder : {Occluder::back_depth(), Occluder::of_thickness(0.4f)}) {
     s.occluder = rays.occluder = occluder;
@@ -265,7 +265,7 @@ TEST(FarField, AllBackgroundIsOpen) {
 TEST(FarField, BackgroundBesideSurfacesIsOpen) {
   const synthetic::Input in = synthetic::blocks(64, 48, Camera::perspective(1, 64, 48), 3);
   for (bool separable : {false, true}) {
-    FarFieldSettings s;
+    FarFieldSettings s{.occluder = Occluder::solid()};
     s.directions = separable ? 18 : 8;
     s.separable = separable ? 3 : 1;
     s.jitter = !separable;
@@ -305,7 +305,7 @@ TEST(FarField, EveryFalloffAndEveryWrongSettingIsAnswered) {
     }
   }
   auto refused = [](auto change) {
-    FarFieldSettings s;
+    FarFieldSettings s{.occluder = Occluder::solid()};
     change(s);
     Estimator e;
     return !Estimator::create(s, 8, 8, &e).ok();

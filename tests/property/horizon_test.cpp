@@ -122,7 +122,7 @@ TEST(Horizon, SlicesAgreeWithRaysThroughTheDepthField) {
                                             {FalloffKind::kConstant, kInf, 0.02},
                                             {FalloffKind::kExponential, 0.3f, 0.02},
                                             {FalloffKind::kQuadratic, 1.0f, 0.02}}) {
-    ReferenceSettings truth;
+    ReferenceSettings truth{.occluder = Occluder::solid()};
     truth.falloff = {.kind = kind, .radius = radius};
     HorizonSettings s = dense();
     s.falloff = truth.falloff;
@@ -154,7 +154,7 @@ TEST(Horizon, FarMatterIsCutAtTheRadiusOrDropped) {
 // The difference is the cost of single texels instead of interpolated ones.
 TEST(Horizon, MoreSamplesComeCloserToTheTruth) {
   const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 8);
-  ReferenceSettings truth;
+  ReferenceSettings truth{.occluder = Occluder::solid()};
   truth.falloff.radius = 0.3f;
   const std::vector<float> expected = visibility(in, truth);
   double before = 1;
@@ -293,7 +293,7 @@ TEST(HorizonDirections, UniformIntegralCarriesTheVisibility) {
 TEST(HorizonDirections, SlicesAgreeWithRaysThroughTheDepthField) {
   const synthetic::Input in = synthetic::blocks(96, 64, Camera::perspective(1.0f, 96, 64), 4);
   for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
-    ReferenceSettings truth;
+    ReferenceSettings truth{.occluder = Occluder::solid()};
     truth.falloff = {.kind = kind, .radius = 0.5f};
     HorizonSettings s = dense();
     s.falloff = truth.falloff;

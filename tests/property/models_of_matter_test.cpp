@@ -39,7 +39,7 @@ class Models {
   float radius() const { return float(0.05 * r_.gbuffer.scene_size); }
 
   double difference(const Occluder& occluder) const {
-    ReferenceSettings s;
+    ReferenceSettings s{.occluder = Occluder::solid()};
     s.falloff.radius = radius();
     s.occluder = occluder;
     s.rays = 256;

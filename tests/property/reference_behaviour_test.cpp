@@ -16,7 +16,7 @@ synthetic::Input blocks() {
 }
 
 ReferenceSettings small(int rays) {
-  ReferenceSettings s;
+  ReferenceSettings s{.occluder = Occluder::solid()};
   s.rays = rays;
   return s;
 }
@@ -194,7 +194,7 @@ TEST(Reference, BadSettingsAreRefusedByName) {
   const synthetic::Input input = blocks();
   Result result(input.field());
   auto message = [&](auto&& change) {
-    ReferenceSettings s;
+    ReferenceSettings s{.occluder = Occluder::solid()};
     change(s);
     const Status status = compute(input.field(), s, result.outputs);
     EXPECT_FALSE(status.ok());

@@ -11,7 +11,7 @@ using reference_scenes::Scene;
 using reference_scenes::Vec;
 
 ReferenceSettings endless(int rays, int every) {
-  ReferenceSettings s;
+  ReferenceSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = std::numeric_limits<float>::infinity();
   s.rays = rays;
   s.every = every;

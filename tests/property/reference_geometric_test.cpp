@@ -71,7 +71,7 @@ void look_at(const std::string& spec, View* view) {
 }
 
 double error_of(const View& view, const Occluder& occluder) {
-  ReferenceSettings settings;
+  ReferenceSettings settings{.occluder = Occluder::solid()};
   settings.falloff.radius = view.radius;
   settings.occluder = occluder;
   settings.rays = 512;

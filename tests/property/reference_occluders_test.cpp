@@ -89,7 +89,7 @@ TEST(ReferenceOccluders, FloatingSlab) {
       // A thickness along the view ray is not flat in perspective.
       if (!orthographic && occluder.kind == OccluderKind::kThickness) continue;
       SCOPED_TRACE(SettingText<Occluder>::write(occluder));
-      ReferenceSettings s;
+      ReferenceSettings s{.occluder = Occluder::solid()};
       s.falloff.radius = kInf;
       s.occluder = occluder;
       s.rays = 4096;
@@ -133,7 +133,7 @@ TEST(ReferenceOccluders, MatterWithoutExtentBlocksNothing) {
   field.depth = {slab.depth.data(), kSize, kSize};
   field.back_depth = field.depth;
   field.camera = slab.camera;
-  ReferenceSettings s;
+  ReferenceSettings s{.occluder = Occluder::solid()};
   s.occluder = Occluder::back_depth();
   s.rays = 64;
   std::vector<float> visibility(kSize * kSize);
@@ -150,7 +150,7 @@ TEST(ReferenceOccluders, BeyondTheBorder) {
   field.depth = {depth.data(), kSize, kSize};
   field.camera = Camera::orthographic_height(2.0f * kSize / (kSize - 1), kSize, kSize, {});
   auto middle = [&](float beyond, FalloffKind kind, float radius) {
-    ReferenceSettings s;
+    ReferenceSettings s{.occluder = Occluder::solid()};
     s.falloff = {.kind = kind, .radius = radius};
     s.beyond_border = beyond;
     s.rays = 4096;

@@ -57,7 +57,7 @@ TEST(ReferenceTruth, AgreesWithAnIndependentTracer) {
     const int w = field.visible().width, h = field.visible().height;
     field.camera =
         Camera::perspective_sensor(311.769f, static_cast<float>(h), w, h, field.guard_band);
-    ReferenceSettings settings;
+    ReferenceSettings settings{.occluder = Occluder::solid()};
     settings.falloff.radius = t.radius;
     settings.rays = 4096;
     settings.every = 45;  // from 22: on the truth's lattice, 2, 7, 12, ...

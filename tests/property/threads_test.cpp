@@ -85,7 +85,7 @@ TEST(Threads, AnEstimatorThatIsRunningRefusesToRun) {
 TEST(Threads, WhatDoesNotExistIsRefused) {
   EXPECT_EQ(Estimator::create(LineSettings{}, 8, 8, nullptr).code(), StatusCode::kInvalidArgument);
   Estimator estimator;
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   settings.profile = static_cast<SlabProfile>(7);
   const Status s = Estimator::create(settings, 8, 8, &estimator);
   EXPECT_EQ(s.code(), StatusCode::kInvalidArgument);

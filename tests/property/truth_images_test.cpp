@@ -46,6 +46,7 @@ template <class Settings>
 double error(const Scene& scene) {
   Settings settings;
   settings.falloff.radius = scene.radius;
+  if constexpr (requires { settings.occluder; }) settings.occluder = Occluder::solid();
   Values v(Scene::kWidth * Scene::kHeight);
   const Status s = compute(scene.input.field(), settings,
                            {.visibility = {v.data(), Scene::kWidth, Scene::kHeight}});
@@ -68,6 +69,7 @@ template <class Settings>
 Angles angles(const Scene& scene) {
   Settings settings;
   settings.falloff.radius = scene.radius;
+  if constexpr (requires { settings.occluder; }) settings.occluder = Occluder::solid();
   const std::size_t pixels = Scene::kWidth * Scene::kHeight;
   Values bent[3] = {Values(pixels), Values(pixels), Values(pixels)}, cone(pixels), v(pixels);
   auto view = [](Values& values) {

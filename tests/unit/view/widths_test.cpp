@@ -86,5 +86,19 @@ TEST_F(WidthsTest, NothingJumps) {
   EXPECT_NEAR(last, 40 * 0.02f, 1e-4);
 }
 
+// A post that moves out of the image loses a footprint for each pixel, and nothing at once.
+TEST_F(WidthsTest, NothingJumpsAtTheBorder) {
+  float last = 12 * 0.02f;
+  for (int first = 20; first > -11; --first) {
+    fill(80, 60, 0.01f, false,
+         [&](int x, int) { return x >= first && x < first + 12 ? 2.0f : 8.0f; });
+    const float here = thickness(std::max(first, 0), 30);
+    EXPECT_GE(here, last - 0.02f - 1e-5f) << first;
+    EXPECT_LE(here, last + 1e-5f) << first;
+    last = here;
+  }
+  EXPECT_NEAR(last, 2 * 0.02f, 1e-5);
+}
+
 }  // namespace
 }  // namespace obscura::view

@@ -128,7 +128,7 @@ void scan_all(const Occluder& occluder, const Check& check) {
   const auto executor = make_executor(2);
   for (const ScanCase& c : cases()) {
     const view::Geometry g = rough(53, 41, c.orthographic, 31);
-    FarFieldSettings settings;
+    FarFieldSettings settings{.occluder = Occluder::solid()};
     settings.directions = 8;
     settings.interval = c.interval;
     const std::vector<Direction> directions = make_directions(settings);
@@ -373,7 +373,7 @@ TEST(Scan, SumsAreAsPreciseAsTheDepths) {
 TEST(Scan, EveryTargetFindsTheSame) {
   const auto executor = make_executor(1);
   const view::Geometry g = rough(97, 41, false, 33);
-  FarFieldSettings settings;
+  FarFieldSettings settings{.occluder = Occluder::solid()};
   settings.directions = 5;
   const std::vector<Direction> directions = make_directions(settings);
   for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.3f)}) {

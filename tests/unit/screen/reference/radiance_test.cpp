@@ -23,7 +23,7 @@ TEST(ReferenceRadiance, RaysCarryTheirLight) {
   o.visibility = ImageView<float>(visibility.data(), kSize, kSize);
   o.radiance = VectorView<float>::interleaved(rgb.data(), kSize, kSize);
   o.cosine_integral = VectorView<float>::interleaved(integral.data(), kSize, kSize);
-  ReferenceSettings s{.rays = 256};
+  ReferenceSettings s{.occluder = Occluder::solid(), .rays = 256};
   s.radiance = [](const std::array<float, 3>& w) { return std::array<float, 3>{2, 1 + w[0], 0}; };
   ASSERT_TRUE(compute(field, s, o).ok());
   for (int i = 0; i < kSize * kSize; ++i) {

@@ -63,7 +63,7 @@ TEST(ReferenceTrace, EveryTargetAgreesWithMarching) {
     TraceScene scene = depth_scene.trace();
     scene.max_distance = scene.beyond_border = kInf;
     const reference::MarchedRays marched(g, c.occluder);
-    ReferenceSettings settings;
+    ReferenceSettings settings{.occluder = Occluder::solid()};
     // Grazing rays are not for the march to tell; also boxes may be left from within.
     settings.offset_px = 0.3f;
     const PixelTracer::Frame frame{&g, &scene, nullptr, &settings, true, false};

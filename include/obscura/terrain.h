@@ -1,6 +1,7 @@
 #ifndef OBSCURA_TERRAIN_H_
 #define OBSCURA_TERRAIN_H_
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -24,6 +25,20 @@
 
 namespace obscura {
 
+// The land around a model that is a tile of a larger one, in cells so coarse that they are small
+// against their distance; coarsen_terrain makes them.
+struct TerrainSurround {
+  ImageView<const float> heights;  // of the larger model; NaN: no data. Empty: no surround
+  int factor = 1;                  // [1, 65536] cells of the model along a coarse one
+  // Cells of the larger model, and from its first cell to that of the tile.
+  std::int64_t width = 0, height = 0, column = 0, row = 0;
+};
+
+// Part of a model.
+struct TerrainWindow {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 // Caller-owned heights of a regular grid.
 struct ElevationModel {
   // [1, 262144] cells a side, in the unit of the cells' sides times 1 / z_factor. Cells that are
@@ -35,6 +50,11 @@ struct ElevationModel {
   // the poles. Lines are then those of the row that they end in, to 1 % of the width: the model is
   // swept once for each band of rows in which widths differ by less than 2 %.
   std::span<const double> row_widths{};
+  // For tiles. Where results are wanted: the rest of the heights is a halo around them, that hides
+  // the sky only. Of width 0: everywhere.
+  TerrainWindow inner{};
+  // What lies beyond the heights and hides the sky, too. Needs a radius of infinity.
+  TerrainSurround surround{};
 };
 
 // How much of the sky's light comes from the side of asvf_direction: the least weight of an azimuth
@@ -87,8 +107,8 @@ void visit_fields(Self& s, Visitor&& v) {
         "observer_height", "world units", {1e-3, 1e6}, "Height from which local dominance looks."});
 }
 
-// Caller-owned results, each as large as the model; those that are empty are not computed. Cells
-// without data become NaN. Means are over the K azimuths.
+// Caller-owned results, each as large as the model or its inner part; those that are empty are not
+// computed. Cells without data become NaN. Means are over the K azimuths.
 struct TerrainOutputs {
   // Share of the sky that is visible, seen as a horizontal hemisphere: 1 - mean(sin gamma+)
   // (Zaksek, Ostir and Kokalj 2011, equation 4). In [0, 1].
@@ -126,6 +146,15 @@ struct TerrainOutputs {
 // Requires: outputs of the model's size that overlap neither each other nor the model.
 OBSCURA_API Status compute_terrain(const ElevationModel& model, const TerrainSettings& settings,
                                    const TerrainOutputs& outputs, const RunOptions& run = {});
+
+// Coarse heights of a model, for tiles of it to be surrounded by: of each block of factor x factor
+// cells half way between their mean and the highest, which is closest to what they hide. A strip of
+// a model, as high as a multiple of `factor`, gives its rows of the coarse model.
+//
+// Requires: `coarse` of ceil(width / factor) x ceil(height / factor) cells. Those without data
+// become NaN.
+OBSCURA_API Status coarsen_terrain(const ElevationModel& model, int factor,
+                                   ImageView<float> coarse);
 
 }  // namespace obscura
 

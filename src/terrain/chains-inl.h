@@ -65,6 +65,13 @@ class Chains {
     StorePairs(hn::Set(D(), kChainEnd), hn::Zero(D()), At(slot, first));
   }
 
+  // Ends one line's chain in a slot, or leads it on to the point `height` of another slot.
+  void Set(int slot, int line, float height, int to) {
+    float* pair = At(slot, line / kLanes * kLanes) + 2 * PairOfLane(line % kLanes);
+    pair[0] = height;
+    pair[1] = static_cast<float>(to);
+  }
+
   // Climbs from the points at `height` and `distance` (in rows, from the viewers at `z`) along the
   // chains stored in `slot`, as long as the next point has the larger slope. The next point is at
   // the distance `origin` - its slot if `kBack`, else `origin` + its slot.

@@ -7,20 +7,53 @@
 namespace obscura {
 namespace {
 
-constexpr int kMostCells = 1 << 18;  // a side
+constexpr int kMostCells = 1 << 18;   // a side
+constexpr int kMostAround = 1 << 20;  // of a surround, in cells of the model
 
 Status check_side(const char* name, double side) {
   if (side >= 1e-4 && side <= 1e6) return {};
   return invalid_argument(text(name, " is ", side, "; it must be in [1e-4, 1e6]"));
 }
 
-Status check_size(const char* name, const ImageView<float>& view, const ElevationModel& model) {
-  if (view.empty() || (view.width == model.heights.width && view.height == model.heights.height)) {
-    return {};
-  }
+Status check_size(const char* name, const ImageView<float>& view, const TerrainWindow& inner) {
+  if (view.empty() || (view.width == inner.width && view.height == inner.height)) return {};
   return invalid_input(text(name, " is ", view.width, "x", view.height,
-                            "; it must be as large as the model, ", model.heights.width, "x",
-                            model.heights.height));
+                            "; it must be as large as what is wanted of the model, ", inner.width,
+                            "x", inner.height));
+}
+
+Status check_tile(const ElevationModel& model, const TerrainSettings& settings) {
+  const TerrainWindow inner = inner_of(model);
+  const auto& heights = model.heights;
+  if (inner.x < 0 || inner.y < 0 || inner.width < 1 || inner.height < 1 ||
+      inner.width > heights.width - inner.x || inner.height > heights.height - inner.y) {
+    return invalid_argument(text("inner is ", inner.width, "x", inner.height, " at ", inner.x, ",",
+                                 inner.y, "; it must lie in the model, ", heights.width, "x",
+                                 heights.height));
+  }
+  const TerrainSurround& s = model.surround;
+  if (s.heights.empty()) return {};
+  if (std::isfinite(settings.radius)) {
+    return invalid_argument(
+        "surround needs a radius of infinity; a halo as wide as the radius "
+        "makes finite ones exact");
+  }
+  if (s.factor < 1 || s.factor > 65536) {
+    return invalid_argument(text("surround.factor is ", s.factor, "; it must be in [1, 65536]"));
+  }
+  if (s.heights.width != (s.width + s.factor - 1) / s.factor ||
+      s.heights.height != (s.height + s.factor - 1) / s.factor) {
+    return invalid_argument(text("surround.heights are ", s.heights.width, "x", s.heights.height,
+                                 "; ", s.width, "x", s.height, " cells by a factor of ", s.factor,
+                                 " need another size"));
+  }
+  if (s.column < 0 || s.row < 0 || s.column + heights.width > s.width ||
+      s.row + heights.height > s.height || s.width > kMostAround || s.height > kMostAround) {
+    return invalid_argument(text("surround is ", s.width, "x", s.height,
+                                 " cells and the model lies at ", s.column, ",", s.row,
+                                 "; it must lie within, and sides be at most ", kMostAround));
+  }
+  return {};
 }
 
 }  // namespace
@@ -56,6 +89,8 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
     return invalid_argument(text("radius is ", settings.radius,
                                  "; it must reach the next cell, so be at least ", cell));
   }
+  if (Status s = check_tile(model, settings); !s.ok()) return s;
+  const TerrainWindow inner = inner_of(model);
   struct Named {
     const char* name;
     const ImageView<float>& view;
@@ -71,7 +106,7 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   bool any = !outputs.horizon.empty();
   for (const Named& v : views) {
     any = any || !v.view.empty();
-    if (Status s = check_size(v.name, v.view, model); !s.ok()) return s;
+    if (Status s = check_size(v.name, v.view, inner); !s.ok()) return s;
   }
   if (!any) return invalid_argument("outputs are all empty; give at least one");
   if (outputs.horizon.empty()) return {};
@@ -81,7 +116,7 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   }
   for (const ImageView<float>& view : outputs.horizon) {
     if (view.empty()) return invalid_input("horizon has an image without data");
-    if (Status s = check_size("horizon", view, model); !s.ok()) return s;
+    if (Status s = check_size("horizon", view, inner); !s.ok()) return s;
   }
   return {};
 }

@@ -15,6 +15,12 @@ inline bool has_height(const ElevationModel& model, float height) {
   return std::fabs(height) <= kMost && !(model.nodata && height == *model.nodata);
 }
 
+// Where results are wanted.
+inline TerrainWindow inner_of(const ElevationModel& model) {
+  if (model.inner.width > 0) return model.inner;
+  return {0, 0, model.heights.width, model.heights.height};
+}
+
 // Of the first cell that has one, in rows; 0 if none has.
 double first_height(const ElevationModel& model);
 

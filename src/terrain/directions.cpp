@@ -31,11 +31,10 @@ NearSample near_sample(double rows, double shear, double step, double earth) {
 // On a round earth ground at the distance s lies s^2 / (2 R') lower, R' = R / (1 - k) with the
 // refraction k. Heights less y^2 / (2 R'), with the position y along the sweep, have the same
 // horizons; their slopes, seen back along the sweep, are larger by y / R'.
-void bend_rows(int rows, double step, double earth, TerrainDirection* direction) {
-  for (int row = 0; row < rows; ++row) {
-    const double y = (row - 0.5 * (rows - 1)) * step;
-    direction->row_offset.push_back(static_cast<float>(-y * y / (2 * earth)));
-    direction->row_slope.push_back(static_cast<float>(y / earth));
+void bend_rows(TerrainDirection* direction) {
+  for (int row = 0; row < direction->sweep.height; ++row) {
+    direction->row_offset.push_back(static_cast<float>(direction->offset(row)));
+    direction->row_slope.push_back(static_cast<float>(direction->position(row) / direction->earth));
   }
 }
 
@@ -105,7 +104,9 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, do
     }
     s.window = marched ? 0 : whole;
     s.marched_rows = marched ? whole : kFineRows;
-    if (settings.curvature) bend_rows(s.height, step, earth, &d);
+    d.step = step;
+    d.earth = earth;
+    if (settings.curvature) bend_rows(&d);
   }
   return directions;
 }

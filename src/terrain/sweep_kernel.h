@@ -2,7 +2,9 @@
 #define OBSCURA_SRC_TERRAIN_SWEEP_KERNEL_H_
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "core/large_array.h"
 
@@ -36,6 +38,21 @@ struct NearSample {
   float drop = 0;  // what the curvature of the earth takes from the slope
 };
 
+// A point of a line: its height, and its swept row, which may lie before the grid's first.
+struct LinePoint {
+  float height;
+  int row;
+};
+
+// What lies on lines before they enter the grid.
+class LineEntries {
+ public:
+  virtual ~LineEntries() = default;
+  // Of the line that is at column `column` + shear * row in any row, before `entry`, the row in
+  // which it enters: the points of the upper hull as seen from there, nearest first.
+  virtual std::span<const LinePoint> before(int column, int entry, int worker) = 0;
+};
+
 enum TerrainSum {
   kSumSvf,
   kSumSvfNormal,
@@ -53,26 +70,35 @@ struct TerrainSweep {
   int width = 0, height = 0;
   bool reversed = false;  // from the last row to the first
   double shear = 0;
+  // Swept rows from the first of the model that the grid is a tile of: a tile has the same lines.
+  double first_row = 0;
   float inverse_step = 1;  // 1 / distance from row to row along a line
   // By swept row, for a round earth: added to heights, and taken from slopes. Null: a flat one.
   const float *row_offset = nullptr, *row_slope = nullptr;
   const NearSample* near = nullptr;
   int near_count = 0;
-  int marched_rows = 0;  // as far as these samples go
-  float same_rise = 0;   // rises per row that differ by less are the same
-  int window = 0;        // rows that a line looks back; 0: samples only
+  int marched_rows = 0;            // as far as these samples go
+  float same_rise = 0;             // rises per row that differ by less are the same
+  LineEntries* entries = nullptr;  // null: nothing lies before the grid; no window then
+  int rows_before = 0;             // how far before the grid's first row it lies
+  int window = 0;                  // rows that a line looks back; 0: samples only
   // The unit vector towards the horizon along columns and rows, each divided by the cell's side,
   // and 1 / the sides.
   float towards_column = 0, towards_row = 0;
   float inverse_width = 1, inverse_height = 1;
-  float weight = 1;                         // of this azimuth in kSumAsvf
+  float weight = 1;  // of this azimuth in kSumAsvf
+  // The part of the grid whose cells are wanted: columns and rows from begin to end.
+  int inner_column_begin = 0, inner_column_end = 0, inner_row_begin = 0, inner_row_end = 0;
   std::array<float*, kTerrainSums> sums{};  // of row 0, column 0; null: not wanted
+
+  // Where line 0 is in a swept row.
+  double line(int row) const { return shear * (first_row + row) - std::floor(shear * first_row); }
 };
 
 // Memory of a worker for one block of lines.
 class TerrainScratch {
  public:
-  // For grids of up to so many rows, and windows of any length if `windows`.
+  // For grids of up to so many rows, with those before, and windows of any length if `windows`.
   void resize(int rows, bool windows);
 
   LargeArray<float> horizon_points;  // {height, slot} by row and line
@@ -82,7 +108,7 @@ class TerrainScratch {
 };
 
 int terrain_blocks(const TerrainSweep& sweep);
-void sweep_terrain_block(const TerrainSweep& sweep, int block, TerrainScratch* scratch);
+void sweep_terrain_block(const TerrainSweep& sweep, int block, int worker, TerrainScratch* scratch);
 
 }  // namespace obscura
 

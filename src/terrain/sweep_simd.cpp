@@ -23,7 +23,7 @@ struct BlockPosition {
   const TerrainSweep& sweep;
   int first_line;
 
-  double line(int row) const { return sweep.shear * row; }
+  double line(int row) const { return sweep.line(row); }
   int column(int row) const { return first_line + static_cast<int>(std::floor(line(row) + 0.5)); }
   bool in_grid(int row) const {
     const int x = column(row);
@@ -32,7 +32,7 @@ struct BlockPosition {
 };
 
 inline int first_terrain_line(const TerrainSweep& s) {
-  return static_cast<int>(std::floor(std::min(0.0, -s.shear * (s.height - 1)))) - 1;
+  return static_cast<int>(std::floor(-std::max(s.line(0), s.line(s.height - 1)))) - 1;
 }
 }  // namespace obscura
 #endif
@@ -44,8 +44,9 @@ namespace HWY_NAMESPACE {
 // One block of lines on its way through the grid.
 class Block {
  public:
-  Block(const TerrainSweep& sweep, int first_line, TerrainScratch* scratch)
+  Block(const TerrainSweep& sweep, int first_line, int worker, TerrainScratch* scratch)
       : s_(sweep),
+        worker_(worker),
         position_{sweep, first_line},
         back_(scratch->horizon_points.data()),
         forth_(scratch->block_points.data()),
@@ -59,14 +60,17 @@ class Block {
     while (end > begin_ && !position_.in_grid(end - 1)) --end;
     windows_ = s_.window > 0 && s_.window < end - begin_;
     std::fill_n(none_, kLines, kNoHeight);
+    slot_of_row_0_ = s_.entries ? 1 + s_.rows_before : 1 - begin_;
     for (int row = begin_; row < end; ++row) {
       SetRow(row);
+      if (s_.entries) EnterLines();
       if (s_.window > 0) {
         FindLineHeights();
         LookBack();
       } else {
         std::fill(slopes_ + first_, slopes_ + last_, std::numeric_limits<float>::lowest());
       }
+      if (inner_first_ >= inner_last_) continue;
       LookNear();
       AddSums();
     }
@@ -82,13 +86,37 @@ class Block {
 
   void SetRow(int row) {
     row_ = row;
-    slot_ = row - begin_ + 1;
+    slot_ = row + slot_of_row_0_;
     x0_ = position_.column(row);
     cells_ = Row(row);
     // Whole steps that touch the grid.
     first_ = std::max(0, -x0_ / kStep * kStep);
     last_ = std::min(kLines, (s_.width - x0_ + kStep - 1) / kStep * kStep);
     offset_ = s_.row_offset ? s_.row_offset[row] : 0.0f;
+    const int grid_row = s_.reversed ? s_.height - 1 - row : row;
+    inner_first_ = inner_last_ = 0;
+    if (grid_row < s_.inner_row_begin || grid_row >= s_.inner_row_end) return;
+    inner_first_ = std::max(0, (s_.inner_column_begin - x0_) / kStep * kStep);
+    inner_last_ = std::min(kLines, (s_.inner_column_end - x0_ + kStep - 1) / kStep * kStep);
+  }
+
+  // Hangs up the chains of lines that have just come into the grid: of those in its first row, then
+  // of one at most in each row, at either side.
+  void EnterLines() {
+    if (row_ == begin_) back_.Clear(slot_ - 1);
+    const int before = row_ == 0 ? x0_ : position_.column(row_ - 1);
+    for (int x = 0; x < s_.width; x += std::max(1, row_ == 0 ? 1 : s_.width - 1)) {
+      const int line = x - x0_;
+      if (line < 0 || line >= kLines) continue;
+      const int x_before = before + line;
+      if (row_ > 0 && x_before >= 0 && x_before < s_.width) continue;
+      int slot = slot_ - 1;
+      for (const LinePoint& p : s_.entries->before(position_.first_line + line, row_, worker_)) {
+        back_.Set(slot, line, p.height, p.row + slot_of_row_0_);
+        slot = p.row + slot_of_row_0_;
+      }
+      back_.Set(slot, line, kChainEnd, 0);
+    }
   }
 
   void FindLineHeights() {
@@ -129,6 +157,7 @@ class Block {
         z[u] = hn::LoadU(d, LineHeights(slot_) + i + u * kLanes);
       }
       back_.Add(slot_, i, z, before, height, distance);
+      if (i < inner_first_ || i >= inner_last_) continue;
       for (int u = 0; u < kTogether; ++u) {
         StoreSlope(i + u * kLanes, z[u], before, height[u], distance[u], false);
       }
@@ -191,7 +220,7 @@ class Block {
           sample.half ? Row(row_ - sample.back + 1) + x0_ + sample.column : a;
       const V fraction = hn::Set(d, sample.fraction), half = hn::Set(d, 0.5f);
       const V inverse = hn::Set(d, sample.inverse_distance), drop = hn::Set(d, sample.drop);
-      for (int i = first_; i < last_; i += kLanes) {
+      for (int i = inner_first_; i < inner_last_; i += kLanes) {
         V left = hn::LoadU(d, a + i), right = hn::LoadU(d, a + i + 1);
         if (sample.half) {
           left = hn::Mul(half, hn::Add(left, hn::LoadU(d, b + i)));
@@ -236,7 +265,7 @@ class Block {
       float* to = s_.sums[sum] + row + i;
       hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
     };
-    for (int i = first_; i < last_; i += kLanes) {
+    for (int i = inner_first_; i < inner_last_; i += kLanes) {
       // A direction without data has the horizon 0.
       V slope = hn::LoadU(d, slopes_ + i);
       slope = hn::IfThenZeroElse(hn::Lt(slope, hn::Set(d, kNoSlope)), slope);
@@ -257,19 +286,21 @@ class Block {
   }
 
   const TerrainSweep& s_;
+  const int worker_;
   BlockPosition position_;
   Chains back_, forth_;
   float *lines_, *none_, *slopes_;
   bool windows_ = false;
   int begin_ = 0;  // the first row in the grid
+  int slot_of_row_0_ = 1;
   // Of the row at hand.
-  int row_ = 0, slot_ = 0, x0_ = 0, first_ = 0, last_ = 0;
+  int row_ = 0, slot_ = 0, x0_ = 0, first_ = 0, last_ = 0, inner_first_ = 0, inner_last_ = 0;
   const float* cells_ = nullptr;
   float offset_ = 0;
 };
 
-void SweepBlock(const TerrainSweep& sweep, int first_line, TerrainScratch* scratch) {
-  Block(sweep, first_line, scratch).Run();
+void SweepBlock(const TerrainSweep& sweep, int first_line, int worker, TerrainScratch* scratch) {
+  Block(sweep, first_line, worker, scratch).Run();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -290,13 +321,15 @@ void TerrainScratch::resize(int rows, bool windows) {
 }
 
 int terrain_blocks(const TerrainSweep& s) {
-  const double last = std::max<double>(s.width, s.width - s.shear * (s.height - 1));
+  const double last = s.width - std::min(s.line(0), s.line(s.height - 1));
   const int lines = static_cast<int>(std::ceil(last)) + 1 - first_terrain_line(s);
   return (lines + kLines - 1) / kLines;
 }
 
-void sweep_terrain_block(const TerrainSweep& sweep, int block, TerrainScratch* scratch) {
-  HWY_DYNAMIC_DISPATCH(SweepBlock)(sweep, first_terrain_line(sweep) + block * kLines, scratch);
+void sweep_terrain_block(const TerrainSweep& sweep, int block, int worker,
+                         TerrainScratch* scratch) {
+  const int line = first_terrain_line(sweep) + block * kLines;
+  HWY_DYNAMIC_DISPATCH(SweepBlock)(sweep, line, worker, scratch);
 }
 
 }  // namespace obscura

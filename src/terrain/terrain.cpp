@@ -11,6 +11,7 @@
 #include "terrain/directions.h"
 #include "terrain/local_dominance.h"
 #include "terrain/plane.h"
+#include "terrain/surround.h"
 
 namespace obscura {
 namespace {
@@ -55,18 +56,19 @@ std::vector<Pass> make_passes(const TerrainOutputs& o) {
   return passes;
 }
 
-// Rows whose cells are taken to be as wide as each other.
+// Wanted rows whose cells are taken to be as wide as each other.
 struct Band {
   int begin, end;
   double cell_width;
 };
 
 std::vector<Band> make_bands(const ElevationModel& model) {
-  const int height = model.heights.height;
-  if (model.row_widths.empty()) return {{0, height, model.cell_width}};
+  const TerrainWindow inner = inner_of(model);
+  const int height = inner.y + inner.height;
+  if (model.row_widths.empty()) return {{inner.y, height, model.cell_width}};
   constexpr double kSpread = 1.02;
   std::vector<Band> bands;
-  for (int y = 0; y < height;) {
+  for (int y = inner.y; y < height;) {
     double least = model.row_widths[y], most = least;
     int end = y;
     for (; end < height; ++end) {
@@ -112,12 +114,21 @@ class Terrain {
     for (TerrainPlane& plane : sums_) reserve(plane);
     scratch_.resize(executor.thread_count());
     bool windows = false;
-    for (const auto& directions : directions_) {
-      for (const TerrainDirection& d : directions) {
+    int before = 0;
+    for (auto& directions : directions_) {
+      for (TerrainDirection& d : directions) {
+        d.sweep.rows_before = SurroundLines::rows_before(model, d);
+        d.sweep.first_row = d.sweep.rows_before;
+        before = std::max(before, d.sweep.rows_before);
         windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
       }
     }
-    for (TerrainScratch& s : scratch_) s.resize(std::max(size.width, size.height), windows);
+    const int rows = std::max(size.width, size.height) + before;
+    for (TerrainScratch& s : scratch_) s.resize(rows, windows);
+    surround_points_.resize(executor.thread_count());
+    for (auto& points : surround_points_) {
+      if (before > 0) points.reserve(rows / model.surround.factor + 2);
+    }
   }
 
   Status run() {
@@ -191,8 +202,16 @@ class Terrain {
       s.sums[pass.wanted[i].sum] = sums_[i].row(0);
     }
     if (pass.horizon) s.sums[kSumHorizon] = sums_[pass.wanted.size()].row(0);
+    s.inner_column_begin = direction.transposed ? inner_.y : inner_.x;
+    s.inner_column_end =
+        s.inner_column_begin + (direction.transposed ? inner_.height : inner_.width);
+    s.inner_row_begin = direction.transposed ? inner_.x : inner_.y;
+    s.inner_row_end = s.inner_row_begin + (direction.transposed ? inner_.width : inner_.height);
+    SurroundLines surround(model_, direction, pass.sign * settings_.z_factor, base_,
+                           &surround_points_);
+    if (!model_.surround.heights.empty()) s.entries = &surround;
     executor_.parallel_for(terrain_blocks(s), [&](int block, int worker) {
-      sweep_terrain_block(s, block, &scratch_[worker]);
+      sweep_terrain_block(s, block, worker, &scratch_[worker]);
     });
     if (pass.horizon) {
       fold(sums_[pass.wanted.size()],
@@ -204,16 +223,18 @@ class Terrain {
 
   void find_dominance(const Band& band) {
     const ImageView<float>& out = outputs_.local_dominance;
-    for_tiles({out.width, band.end - band.begin}, executor_, [&](int x0, int y0, int x1, int y1) {
-      for (int y = band.begin + y0; y < band.begin + y1; ++y) {
-        float dominance[kTerrainTile];
-        ring_.row(heights_, y, x0, x1, dominance);
-        for (int x = x0; x < x1; ++x) {
-          const bool has = has_height(model_, model_.heights(x, y));
-          out(x, y) = has ? dominance[x - x0] : std::numeric_limits<float>::quiet_NaN();
-        }
-      }
-    });
+    for_tiles({inner_.width, band.end - band.begin}, executor_,
+              [&](int x0, int y0, int x1, int y1) {
+                for (int y = band.begin + y0; y < band.begin + y1; ++y) {
+                  float dominance[kTerrainTile];
+                  ring_.row(heights_, y, inner_.x + x0, inner_.x + x1, dominance);
+                  for (int x = x0; x < x1; ++x) {
+                    const bool has = has_height(model_, model_.heights(inner_.x + x, y));
+                    out(x, y - inner_.y) =
+                        has ? dominance[x - x0] : std::numeric_limits<float>::quiet_NaN();
+                  }
+                }
+              });
   }
 
   // Adds sums to an output. The first of the two grids starts it, the second ends it; `whole`: one
@@ -227,14 +248,16 @@ class Terrain {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     auto fold_row = [&](int y, int x0, int x1, const float* sum) {
       for (int x = x0; x < x1; ++x) {
-        float& out = wanted.view(x, y);
+        float& out = wanted.view(x - inner_.x, y - inner_.y);
         float value = (first ? start : out) + factor * sum[x - x0];
         if (last) value = std::clamp(value, least, most);
         out = has_height(model_, model_.heights(x, y)) ? value : kNone;
       }
     };
-    for_tiles({model_.heights.width, band.end - band.begin}, executor_,
+    for_tiles({inner_.width, band.end - band.begin}, executor_,
               [&](int x0, int y0, int x1, int y1) {
+                x0 += inner_.x;
+                x1 += inner_.x;
                 y0 += band.begin;
                 y1 += band.begin;
                 TileBuffer tile;
@@ -257,9 +280,11 @@ class Terrain {
   const DominanceRing ring_{settings_};
   Progress progress_;
   const double base_ = first_height(model_);
+  const TerrainWindow inner_ = inner_of(model_);
   TerrainPlane heights_;
   std::vector<TerrainPlane> sums_;  // in the order of a pass's quantities; the horizon is last
   std::vector<TerrainScratch> scratch_;
+  SurroundLines::Points surround_points_;
 };
 
 }  // namespace

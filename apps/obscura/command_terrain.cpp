@@ -1,4 +1,6 @@
 // obscura terrain: sky-view factor, openness and horizons of an elevation model.
+#include <unistd.h>
+
 #include <cmath>
 #include <memory>
 
@@ -6,6 +8,7 @@
 #include "apps/obscura/option_table.h"
 #include "apps/obscura/output.h"
 #include "apps/obscura/terrain_quantities.h"
+#include "apps/obscura/terrain_tiles.h"
 #include "fmt/format.h"
 #include "io/images/files.h"
 #include "io/pictures/hill_shade.h"
@@ -80,9 +83,9 @@ void visit_fields(Self& s, Visitor&& v) {
 namespace {
 
 struct TerrainCommand {
-  std::string input, output, quantity, picture, json;
+  std::string input, output, quantity, picture, json, memory, part;
   OptionTable table;
-  int threads = 0, band = 0;
+  int threads = 0, band = 0, tile = 0;
   bool network = false, overviews = false;
 };
 
@@ -90,6 +93,8 @@ struct TerrainRequest {
   TerrainOptions options;
   std::string quantity;
   TerrainQuantities quantities;
+  double memory = 0;  // bytes
+  int part = 1, parts = 1;
 };
 
 // The preset's settings, before those that are given; returns its quantities.
@@ -119,6 +124,39 @@ std::string apply_preset(TerrainPreset preset, TerrainOptions* o) {
   return "svf";
 }
 
+// "2G", "500M": bytes; by default three quarters of the machine's memory.
+Status parse_memory(const std::string& text, double* bytes) {
+  if (text.empty()) {
+    *bytes = 0.75 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+             static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    return {};
+  }
+  double number = 0;
+  const double unit = text.ends_with("G") ? 1e9 : text.ends_with("M") ? 1e6 : 0;
+  if (unit > 0 && parse_number(std::string_view(text).substr(0, text.size() - 1), &number) &&
+      number > 0 && std::isfinite(number)) {
+    *bytes = number * unit;
+    return {};
+  }
+  return invalid_argument(
+      fmt::format("--memory is '{}'; it must be a size such as 500M or 2G", text));
+}
+
+Status parse_part(const std::string& text, int* part, int* parts) {
+  if (text.empty()) return {};
+  const std::size_t slash = text.find('/');
+  double i = 0, n = 0;
+  if (slash != text.npos && parse_number(text.substr(0, slash), &i) &&
+      parse_number(text.substr(slash + 1), &n) && i >= 1 && n <= 1e6 && i <= n &&
+      i == std::floor(i) && n == std::floor(n)) {
+    *part = static_cast<int>(i);
+    *parts = static_cast<int>(n);
+    return {};
+  }
+  return invalid_argument(
+      fmt::format("--part is '{}'; it must be I/N with whole numbers, 1 <= I <= N", text));
+}
+
 Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
   if (Status s = c.table.read(&p->options); !s.ok()) return s;
   const std::string usual = apply_preset(p->options.preset, &p->options);
@@ -127,6 +165,8 @@ Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
   if (Status s = validate_ranges(p->options.terrain); !s.ok()) {
     return {s.code(), "--" + s.message()};
   }
+  if (Status s = parse_memory(c.memory, &p->memory); !s.ok()) return s;
+  if (Status s = parse_part(c.part, &p->part, &p->parts); !s.ok()) return s;
   if (c.output.empty() && c.picture.empty()) {
     return invalid_argument("nothing to write; give --output, --picture or both");
   }
@@ -159,6 +199,55 @@ std::string settings_text(const TerrainRequest& p) {
   return text;
 }
 
+bool tiles_asked(const TerrainCommand& c) {
+  return c.tile > 0 || !c.memory.empty() || !c.part.empty();
+}
+
+// Tiles, where they are asked for and needed; `done` says so.
+Status run_in_tiles(const TerrainCommand& c, const TerrainRequest& p,
+                    const tools::RasterOptions& read, bool quiet, bool* done) {
+  *done = false;
+  if (!tiles_asked(c)) return {};
+  const std::string in = tools::file_ending(c.input), out = tools::file_ending(c.output);
+  const bool image = in == ".png" || in == ".exr" || in == ".pfm" || in == ".npy";
+  const bool tiff = out == ".tif" || out == ".tiff";
+  if (image || !tiff || !c.picture.empty()) {
+    return invalid_argument(
+        "--tile, --memory and --part need a raster that GDAL reads, --output as .tif and no "
+        "--picture");
+  }
+  tools::Raster whole;
+  tools::RasterOptions corner = read;
+  corner.window = tools::RasterWindow{0, 0, 1, 1};
+  if (Status s = tools::read_raster(c.input, corner, &whole); !s.ok()) return s;
+  const int channels = p.quantities.channels(p.options.terrain.azimuths);
+  if (c.tile == 0 && c.part.empty() && whole_bytes(whole, channels) <= p.memory) return {};
+  TerrainTiles tiles;
+  tiles.side = c.tile > 0 ? c.tile : tile_side(p.memory, channels);
+  if (tiles.side == 0) {
+    return invalid_argument(fmt::format(
+        "--memory: {:.0f} MB do not hold a tile with its halo; give at least {:.0f}M",
+        1e-6 * p.memory,
+        std::ceil(1e-6 * 4 * (1280.0 * 1280 * (2 + channels) + 2 * 256.0 * 256 * channels))));
+  }
+  tiles.input = c.input;
+  tiles.output = c.output;
+  tiles.read = read;
+  tiles.settings = p.options.terrain;
+  const double cell = std::sqrt(whole.cell_width * whole.cell_height);
+  tiles.settings.radius = p.options.radius.value * (p.options.radius.cells ? cell : 1);
+  tiles.settings.z_factor = whole.z_factor;
+  tiles.quantities = p.quantities;
+  tiles.about = settings_text(p);
+  tiles.part = p.part;
+  tiles.parts = p.parts;
+  tiles.threads = c.threads;
+  tiles.overviews = c.overviews;
+  tiles.quiet = quiet;
+  *done = true;
+  return tiles.run();
+}
+
 Status run_terrain(const TerrainCommand& c, bool quiet) {
   TerrainRequest p;
   if (Status s = parse_terrain(c, &p); !s.ok()) return s;
@@ -171,6 +260,8 @@ Status run_terrain(const TerrainCommand& c, bool quiet) {
   read.cell_size = p.options.cell_size;
   read.z_factor = p.options.z_factor;
   read.network = c.network;
+  bool done = false;
+  if (Status s = run_in_tiles(c, p, read, quiet, &done); !s.ok() || done) return s;
   if (Status s = tools::read_raster(c.input, read, &raster); !s.ok()) return s;
   const double loaded = watch.seconds();
 
@@ -257,6 +348,18 @@ void add_terrain(App& app) {
   command->add_option("--band", c->band, "Band that holds heights, from 1; needed for several")
       ->check(CLI::Range(1, 65535))
       ->type_name("N");
+  command->add_option("--tile", c->tile, "Compute in tiles of so many cells a side, with a halo")
+      ->check(CLI::Range(64, 65536))
+      ->type_name("N");
+  command
+      ->add_option("--memory", c->memory,
+                   "Compute in tiles where the whole takes more than this, as 2G")
+      ->type_name("SIZE");
+  command
+      ->add_option("--part", c->part,
+                   "Compute only every Nth tile, from the Ith; the run that finds all tiles done "
+                   "writes the output")
+      ->type_name("I/N");
   command->add_flag("--network", c->network, "Read files that lie in a network, too");
   command->add_flag("--overviews", c->overviews, "Reduced copies in a .tif, for fast display");
   add_threads_option(command, &c->threads);

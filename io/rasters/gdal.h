@@ -16,8 +16,9 @@ Status read_gdal(const std::string& path, const RasterOptions& options, Raster* 
 // GeoTIFF: a float32 band per channel in tiles of 256x256, compressed, BigTIFF where needed; with
 // the transform, coordinate system and tags of the raster's own file, and its nodata value where no
 // result can have it, else NaN. Not atomic by itself: see write_raster.
-Status write_geotiff(const std::string& path, const Raster& raster, const Image& results,
-                     const RasterWriteOptions& options);
+Status write_geotiff(const std::string& path, const Raster& raster,
+                     const std::vector<std::string>& channels, const RasterWriteOptions& options,
+                     const std::function<Status(const PutPart& put)>& make);
 
 }  // namespace obscura::tools
 

@@ -18,8 +18,8 @@ bool has_gdal() { return false; }
 
 Status read_gdal(const std::string& path, const RasterOptions&, Raster*) { return absent(path); }
 
-Status write_geotiff(const std::string& path, const Raster&, const Image&,
-                     const RasterWriteOptions&) {
+Status write_geotiff(const std::string& path, const Raster&, const std::vector<std::string>&,
+                     const RasterWriteOptions&, const std::function<Status(const PutPart& put)>&) {
   return absent(path);
 }
 

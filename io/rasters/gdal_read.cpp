@@ -85,7 +85,8 @@ Status check_memory(const std::string& path, int width, int height) {
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (needed <= memory) return {};
   return invalid_input(fmt::format(
-      "{} says that it is {}x{} cells; computing that takes {:.0f} GB, more than this machine has",
+      "{} says that it is {}x{} cells; computing that takes {:.0f} GB, more than this machine has; "
+      "--memory computes it in tiles",
       path, width, height, needed * 1e-9));
 }
 
@@ -123,8 +124,8 @@ void read_tags(GDALDatasetH dataset, GDALRasterBandH band, Georeference* r) {
 // Rows as doubles, so that integers of any size and scaled ones keep their values until they are
 // heights.
 Status read_rows(const std::string& path, GDALRasterBandH band, const RasterOptions& options,
-                 bool south_up, Raster* raster) {
-  const int width = raster->width, height = raster->height;
+                 const RasterWindow& window, bool south_up, Raster* raster) {
+  const int width = raster->width;
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset = GDALGetRasterOffset(band, nullptr);
   const bool masked = options.nodata.empty() && (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0;
@@ -132,18 +133,18 @@ Status read_rows(const std::string& path, GDALRasterBandH band, const RasterOpti
   std::vector<double> row(width);
   std::vector<unsigned char> valid(width, 255);
   const float none = std::numeric_limits<float>::quiet_NaN();
-  for (int y = 0; y < height; ++y) {
-    if (GDALRasterIO(band, GF_Read, 0, y, width, 1, row.data(), width, 1, GDT_Float64, 0, 0) !=
-            CE_None ||
-        (mask && GDALRasterIO(mask, GF_Read, 0, y, width, 1, valid.data(), width, 1, GDT_Byte, 0,
-                              0) != CE_None)) {
+  float* to = raster->heights.data();
+  for (int y = window.y; y < window.y + window.height; ++y) {
+    const int from = south_up ? raster->whole_height - 1 - y : y;
+    if (GDALRasterIO(band, GF_Read, window.x, from, width, 1, row.data(), width, 1, GDT_Float64, 0,
+                     0) != CE_None ||
+        (mask && GDALRasterIO(mask, GF_Read, window.x, from, width, 1, valid.data(), width, 1,
+                              GDT_Byte, 0, 0) != CE_None)) {
       return invalid_input(
-          fmt::format("{}: row {} cannot be read ({})", path, y, GdalSession::message()));
+          fmt::format("{}: row {} cannot be read ({})", path, from, GdalSession::message()));
     }
-    float* to =
-        raster->heights.data() + static_cast<std::size_t>(south_up ? height - 1 - y : y) * width;
     for (int x = 0; x < width; ++x) {
-      to[x] = valid[x] ? static_cast<float>(row[x] * scale + offset) : none;
+      *to++ = valid[x] ? static_cast<float>(row[x] * scale + offset) : none;
     }
   }
   return {};
@@ -160,17 +161,27 @@ Status read_gdal(const std::string& path, const RasterOptions& options, Raster* 
   GDALRasterBandH band = nullptr;
   if (Status s = choose_band(path, dataset.get(), options.band, &band); !s.ok()) return s;
   Raster result;
-  result.width = GDALGetRasterBandXSize(band);
-  result.height = GDALGetRasterBandYSize(band);
-  if (Status s = check_memory(path, result.width, result.height); !s.ok()) return s;
+  result.width = result.whole_width = GDALGetRasterBandXSize(band);
+  result.height = result.whole_height = GDALGetRasterBandYSize(band);
   auto reference = std::make_shared<Georeference>();
   if (Status s = read_transform(path, dataset.get(), reference.get()); !s.ok()) return s;
   read_tags(dataset.get(), band, reference.get());
   if (Status s = find_units(path, dataset.get(), band, options, *reference, &result); !s.ok()) {
     return s;
   }
+  const RasterWindow window =
+      options.window.value_or(RasterWindow{0, 0, result.width, result.height});
+  if (Status s = check_memory(path, window.width, window.height); !s.ok()) return s;
+  result.width = window.width;
+  result.height = window.height;
+  if (!result.row_widths.empty()) {
+    const auto first = result.row_widths.begin() + window.y;
+    result.row_widths = std::vector<double>(first, first + window.height);
+  }
   result.heights.resize(static_cast<std::size_t>(result.width) * result.height);
-  if (Status s = read_rows(path, band, options, reference->south_up, &result); !s.ok()) return s;
+  if (Status s = read_rows(path, band, options, window, reference->south_up, &result); !s.ok()) {
+    return s;
+  }
   const bool knows_nodata = reference->nodata || (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0;
   result.georeference = std::move(reference);
   RasterOptions nodata = options;

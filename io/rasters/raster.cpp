@@ -84,6 +84,10 @@ Status read_raster(const std::string& path, const RasterOptions& options, Raster
     *raster = std::move(result);
     return {};
   }
+  if (options.window) {
+    return unsupported(
+        fmt::format("{} is read as a whole only; tiles need a raster that GDAL reads", path));
+  }
   Image image;
   if (Status s = read_image_heights(path, &image); !s.ok()) return s;
   const int channels = static_cast<int>(image.channels.size());
@@ -123,6 +127,15 @@ Status check_raster_ending(const std::string& path, int channels) {
   return {};
 }
 
+Status write_raster_parts(const std::string& path, const Raster& raster,
+                          const std::vector<std::string>& channels,
+                          const RasterWriteOptions& options,
+                          const std::function<Status(const PutPart& put)>& make) {
+  return write_atomically(path, [&](const std::string& temporary) {
+    return write_geotiff(temporary, raster, channels, options, make);
+  });
+}
+
 Status write_raster(const std::string& path, const Raster& raster, const Image& results,
                     const RasterWriteOptions& options) {
   const std::string ending = file_ending(path);
@@ -132,9 +145,14 @@ Status write_raster(const std::string& path, const Raster& raster, const Image& 
     return write_text(path, bytes);
   }
   if (is_image(ending)) return write_image(path, results, {.png_bits = 16});
-  return write_atomically(path, [&](const std::string& temporary) {
-    return write_geotiff(temporary, raster, results, options);
-  });
+  Raster place;
+  place.georeference = raster.georeference;
+  place.whole_width = results.width;
+  place.whole_height = results.height;
+  std::vector<std::string> channels;
+  for (const Image::Channel& c : results.channels) channels.push_back(c.name);
+  return write_raster_parts(path, place, channels, options,
+                            [&](const PutPart& put) { return put(0, 0, results); });
 }
 
 }  // namespace obscura::tools

@@ -23,10 +23,13 @@ bool SurroundLines::coarse_position(double column, int row, double* x, double* y
   const TerrainSurround& s = model_.surround;
   double across = column, down = sweep.reversed ? sweep.height - 1 - row : row;
   if (direction_.transposed) std::swap(across, down);
-  // Coarse cell i spans the cells from i * factor on.
-  *x = (across + static_cast<double>(s.column) + 0.5) / s.factor - 0.5;
-  *y = (down + static_cast<double>(s.row) + 0.5) / s.factor - 0.5;
-  return *x >= -0.5 && *y >= -0.5 && *x <= s.heights.width - 0.5 && *y <= s.heights.height - 0.5;
+  across += static_cast<double>(s.column);
+  down += static_cast<double>(s.row);
+  // Coarse cell i spans the cells from i * factor on; the last may reach beyond the model.
+  *x = (across + 0.5) / s.factor - 0.5;
+  *y = (down + 0.5) / s.factor - 0.5;
+  return across >= -0.5 && down >= -0.5 && across <= static_cast<double>(s.width) - 0.5 &&
+         down <= static_cast<double>(s.height) - 0.5;
 }
 
 float SurroundLines::height_at(double x, double y) const {

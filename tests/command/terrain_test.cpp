@@ -263,6 +263,47 @@ TEST_F(TerrainCommand, RefusesRastersThatLie) {
   EXPECT_FALSE(std::filesystem::exists(path("x.tif")));
 }
 
+TEST_F(TerrainCommand, ComputesInTilesAndParts) {
+  if (!tools::has_gdal()) GTEST_SKIP() << "this build has no GDAL";
+  std::ostringstream text;
+  text << "ncols 150\nnrows 140\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
+  for (int i = 0; i < 150 * 140; ++i) {
+    const int x = i % 150, y = i / 150;
+    text << 100 + 40 * std::sin(x * 0.21 + y * 0.13) + 25 * std::cos(y * 0.37)
+         << (x < 149 ? ' ' : '\n');
+  }
+  write("grid.asc", text.str());
+  auto result = [&](const std::string& file) {
+    Raster raster;
+    tools::RasterOptions first;
+    first.band = 1;
+    EXPECT_TRUE(tools::read_raster(path(file), first, &raster).ok());
+    return raster.heights;
+  };
+  const std::string line = "terrain grid.asc -q --quantity svf,openness --azimuths 8 -o ";
+  expect_success(line + "whole.tif");
+  expect_success(line + "tiles.tif --tile 64");
+  // The halo reaches the border everywhere here.
+  EXPECT_TRUE(same(result("tiles.tif"), result("whole.tif"), 1e-4f));
+  EXPECT_FALSE(std::filesystem::exists(path("tiles.tif.tiles")));
+  // Parts, in any order, one of them taken up again; the last one writes.
+  expect_success(line + "parts.tif --tile 64 --part 2/2");
+  EXPECT_FALSE(std::filesystem::exists(path("parts.tif")));
+  EXPECT_TRUE(std::filesystem::exists(path("parts.tif.tiles/tile-1.npy")));
+  std::filesystem::remove(path("parts.tif.tiles/tile-3.npy"));
+  expect_success(line + "parts.tif --tile 64 --part 2/2");
+  expect_failure(line + "parts.tif --tile 128", 2, "holds tiles of another run");
+  expect_success(line + "parts.tif --tile 64 --part 1/2");
+  EXPECT_EQ(read_file(path("parts.tif")).size(), read_file(path("tiles.tif")).size());
+  EXPECT_TRUE(same(result("parts.tif"), result("tiles.tif"), 0));
+  expect_failure(line + "x.tif --radius 8px --tile 64", 2, "--radius must be inf for tiles");
+  expect_failure(line + "x.tif --memory 3", 2, "--memory is '3'");
+  expect_failure(line + "x.tif --memory 0.1M", 2, "do not hold a tile");
+  expect_failure(line + "x.tif --part 3/2", 2, "--part is '3/2'");
+  expect_failure(line + "x.exr --tile 64", 2, "--output as .tif");
+  EXPECT_FALSE(std::filesystem::exists(path("x.tif.tiles")));
+}
+
 TEST_F(TerrainCommand, WritesWholeFilesOrNone) {
   if (!tools::has_gdal()) GTEST_SKIP() << "this build has no GDAL";
   write("grid.asc", grid());

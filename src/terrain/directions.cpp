@@ -19,7 +19,9 @@ NearSample near_sample(double rows, double shear, double step, double earth) {
   NearSample sample;
   sample.back = static_cast<int>(std::ceil(rows));
   sample.half = sample.back != rows;
-  const double column = -shear * rows;
+  // On a cell but for rounding is on it: else it would mix with a cell without data beside it.
+  const double exact = -shear * rows, nearest = std::round(exact);
+  const double column = std::fabs(exact - nearest) < 1e-6 ? nearest : exact;
   sample.column = static_cast<int>(std::floor(column));
   sample.fraction = static_cast<float>(column - sample.column);
   const double distance = rows * step;

@@ -8,7 +8,12 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(obscura_flags INTERFACE -march=x86-64-v2)
   target_compile_definitions(obscura_flags INTERFACE HWY_DISABLE_PCLMUL_AES)
 endif()
-if(OBSCURA_FORCE_SSE4)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|ARM64")
+  # NEON is part of every such processor, so that one target is enough. Without the second word
+  # Highway (1.0.3) would compile for NEON with cryptography, of which these kernels use nothing and
+  # which constructors of plain structs of vectors would have to be told of.
+  target_compile_definitions(obscura_flags INTERFACE HWY_COMPILE_ONLY_STATIC TOOLCHAIN_MISS_SYS_AUXV_H)
+elseif(OBSCURA_FORCE_SSE4)
   target_compile_definitions(obscura_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
 else()
   # It only adds instructions that these kernels do not use.

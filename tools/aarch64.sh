@@ -18,5 +18,5 @@ if [ ! -e "$root/complete" ]; then
   touch "$root/complete"
 fi
 cmake --preset aarch64
-cmake --build build/aarch64 --target obscura_unit_tests
+cmake --build build/aarch64 --target obscura_tests
 ctest --test-dir build/aarch64 --output-on-failure -j "$(nproc)" --no-tests=error "$@"

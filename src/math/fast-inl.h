@@ -13,21 +13,28 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 
-// 1 / x for |x| in [1e-37, 1e37], relative error under 3e-7: an estimate and a Newton step.
+// Newton steps that an estimate needs: x86 estimates have 12 bits, those of NEON 8.
+constexpr int kNewtonSteps = HWY_TARGET == HWY_NEON ? 2 : 1;
+
+// 1 / x for |x| in [1e-37, 1e37], relative error under 3e-7: an estimate and Newton steps.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V FastReciprocal(D d, V x) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const V r = hn::ApproximateReciprocal(x);
-  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+  V r = hn::ApproximateReciprocal(x);
+  for (int i = 0; i < kNewtonSteps; ++i) r = hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+  return r;
 }
 
-// 1 / sqrt(x) for x in [1e-37, 1e37], relative error under 5e-7: an estimate and a Newton step.
+// 1 / sqrt(x) for x in [1e-37, 1e37], relative error under 5e-7: an estimate and Newton steps.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V FastInverseSqrt(D d, V x) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const V r = hn::ApproximateReciprocalSqrt(x);
-  const V half = hn::Mul(hn::Set(d, 0.5f), hn::Mul(x, r));
-  return hn::Mul(r, hn::NegMulAdd(half, r, hn::Set(d, 1.5f)));
+  V r = hn::ApproximateReciprocalSqrt(x);
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const V half = hn::Mul(hn::Set(d, 0.5f), hn::Mul(x, r));
+    r = hn::Mul(r, hn::NegMulAdd(half, r, hn::Set(d, 1.5f)));
+  }
+  return r;
 }
 
 // exp(-x) for x >= 0, absolute error under 4e-6 (2^t by its whole and fractional part); 0 from 80

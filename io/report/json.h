@@ -12,11 +12,18 @@
 
 namespace obscura::tools {
 
+// A member of an object. A template, so that it is complete where Json is.
+template <class Value>
+struct NamedValue {
+  std::string name;
+  Value value;
+};
+
 // A JSON value that is built and printed. Its header costs little to include; the library that
 // prints it (nlohmann-json) is known to json.cpp alone.
 class Json {
  public:
-  struct Member;
+  using Member = NamedValue<Json>;
   using Array = std::vector<Json>;
   using Object = std::vector<Member>;  // in order of insertion
 
@@ -42,7 +49,7 @@ class Json {
     for (const auto& e : elements) push_back(e);
   }
   // An object: {{"name", value}, ...}.
-  Json(std::initializer_list<Member> members);
+  Json(std::initializer_list<Member> members) : value_(Object(members)) {}
   static Json array();
   static Json object();
 
@@ -71,13 +78,6 @@ class Json {
   friend struct JsonPrinter;
   std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Object> value_;
 };
-
-struct Json::Member {
-  std::string name;
-  Json value;
-};
-
-inline Json::Json(std::initializer_list<Member> members) : value_(Object(members)) {}
 
 }  // namespace obscura::tools
 

@@ -136,7 +136,8 @@ TEST(HalfResolution, WhatNoSeenPixelLiesBesideIsOpen) {
 
 // Every method, odd sizes and guard bands: close to the result at full resolution.
 TEST(HalfResolution, EveryMethodIsNearItself) {
-  for (const auto& [w, h] : {std::pair{1, 1}, {2, 3}, {97, 64}}) {
+  for (const auto& size : {std::pair{1, 1}, {2, 3}, {97, 64}}) {
+    const int w = size.first, h = size.second;
     for (bool orthographic : {false, true}) {
       Random random(7);
       synthetic::Input in = synthetic::blocks(

@@ -58,7 +58,7 @@ inline double solve_eikonal(std::array<double, 3> a, std::array<double, 3> h) {
 
 // Sweeps |D| in the eight orders of Table 1, `rounds` times over; signs stay.
 inline void sweep_distance(Grid& d, int rounds) {
-  const auto [nx, ny, nz] = d.size;
+  const int nx = d.size[0], ny = d.size[1], nz = d.size[2];
   const double far = 1e30;
   auto at = [&](int x, int y, int z) {
     const bool in = x >= 0 && x < nx && y >= 0 && y < ny && z >= 0 && z < nz;

@@ -21,7 +21,7 @@ namespace obscura {
 
 enum class ConeEstimate {
   kExact,  // acos(max(0, 2 |N_ss| - 1)): the half-angle itself where the opening is a cap
-  kPaper,  // (1 - max(0, 2 |N_ss| - 1)) pi/2, Klehm et al. 2011, Klehm et al. 2011, section 3.2:
+  kPaper,  // (1 - max(0, 2 |N_ss| - 1)) pi/2, Klehm et al. 2011, section 3.2:
            // narrower (45 degrees for a cap of 60)
 };
 template <>

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "obscura/export.h"
 #include "obscura/run_options.h"
@@ -55,6 +56,9 @@ struct ElevationModel {
   TerrainWindow inner{};
   // What lies beyond the heights and hides the sky, too. Needs a radius of infinity.
   TerrainSurround surround{};
+  // Taken from heights before they are rounded; none: the first height. For parts of one model that
+  // are to have the same bits.
+  std::optional<double> datum{};
 };
 
 // How much of the sky's light comes from the side of asvf_direction: the least weight of an azimuth
@@ -146,6 +150,53 @@ struct TerrainOutputs {
 // Requires: outputs of the model's size that overlap neither each other nor the model.
 OBSCURA_API Status compute_terrain(const ElevationModel& model, const TerrainSettings& settings,
                                    const TerrainOutputs& outputs, const RunOptions& run = {});
+
+// A point of a line through a model: its height, and its row or column, counted in the direction of
+// the sweep.
+struct TerrainHullPoint {
+  float height;
+  std::int32_t row;
+};
+
+// What a band of a model hands to the next one: what later ground can see of the lines that cross
+// the border between the two, some points a line; all points of the line where it looks out of a
+// bowl. The caller keeps them, as in a file.
+class TerrainHulls {
+ public:
+  virtual ~TerrainHulls() = default;
+  // The calls that follow are of this sweep, counted from 0; sweeps come in rising order.
+  virtual Status begin(int sweep) = 0;
+  // A line that crosses the border, one in each column of the model at most. From several threads.
+  virtual Status put(int column, std::span<const TerrainHullPoint> hull) = 0;
+  // Replaces `hull` by what was put. From several threads.
+  virtual Status get(int column, std::vector<TerrainHullPoint>* hull) = 0;
+};
+
+// Rows that a band needs around those where results are wanted, where the model has them.
+inline constexpr int kTerrainBandHalo = 64;
+
+// Where a band lies in its model, and how it goes on.
+struct TerrainBand {
+  int height = 0;   // [1, 262144] rows of the whole model
+  int row = 0;      // of the whole model, which is the band's first
+  bool up = false;  // after all bands downwards, all of them upwards
+  // What the band before has handed on; null: this is the first one.
+  TerrainHulls* from = nullptr;
+  // Takes what the next one needs; null: this is the last one.
+  TerrainHulls* to = nullptr;
+};
+
+// Computes a model of which memory holds a band of whole rows only. Each band is computed twice:
+// from the first one down, which leaves parts of results in the outputs, then from the last one up,
+// which makes results of these. The bits are those of compute_terrain.
+//
+// Guarantees: on error the outputs are untouched, or parts of results if hulls cannot be kept.
+// Requires: model.inner spans the width; heights have kTerrainBandHalo rows more above and below it
+// or reach the whole model's border; row_widths, if any, has a number for each row of the whole
+// model; datum is given, no surround. A radius of infinity, or less than 24 rows.
+OBSCURA_API Status compute_terrain_band(const ElevationModel& model, const TerrainBand& band,
+                                        const TerrainSettings& settings,
+                                        const TerrainOutputs& outputs, const RunOptions& run = {});
 
 // Coarse heights of a model, for tiles of it to be surrounded by: of each block of factor x factor
 // cells half way between their mean and the highest, which is closest to what they hide. A strip of

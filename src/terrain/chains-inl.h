@@ -71,6 +71,13 @@ class Chains {
     pair[0] = height;
     pair[1] = static_cast<float>(to);
   }
+  // The next point of one line's chain; false at its end.
+  bool Next(int slot, int line, float* height, int* to) const {
+    const float* pair = At(slot, line / kLanes * kLanes) + 2 * PairOfLane(line % kLanes);
+    *height = pair[0];
+    *to = static_cast<int>(pair[1]);
+    return *to > 0;
+  }
 
   // Climbs from the points at `height` and `distance` (in rows, from the viewers at `z`) along the
   // chains stored in `slot`, as long as the next point has the larger slope. The next point is at

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "terrain/sweep_kernel.h"
 
 namespace obscura {
 namespace {
@@ -59,7 +60,7 @@ Status check_tile(const ElevationModel& model, const TerrainSettings& settings) 
 }  // namespace
 
 Status check_terrain(const ElevationModel& model, const TerrainSettings& settings,
-                     const TerrainOutputs& outputs) {
+                     const TerrainOutputs& outputs, std::optional<int> rows) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (settings.dominance_to < settings.dominance_from) {
     return invalid_argument(text("dominance_to is ", settings.dominance_to,
@@ -76,9 +77,10 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   if (Status s = check_side("cell_width", model.cell_width); !s.ok()) return s;
   if (Status s = check_side("cell_height", model.cell_height); !s.ok()) return s;
   if (!model.row_widths.empty() &&
-      model.row_widths.size() != static_cast<std::size_t>(heights.height)) {
+      model.row_widths.size() != static_cast<std::size_t>(rows.value_or(heights.height))) {
     return invalid_input(text("row_widths has ", model.row_widths.size(),
-                              " numbers; it must have one per row, ", heights.height));
+                              " numbers; it must have one per row, ",
+                              rows.value_or(heights.height)));
   }
   double cell = std::max(model.cell_width, model.cell_height);
   for (const double width : model.row_widths) {
@@ -88,6 +90,9 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   if (settings.radius < cell) {
     return invalid_argument(text("radius is ", settings.radius,
                                  "; it must reach the next cell, so be at least ", cell));
+  }
+  if (model.datum && !(std::fabs(*model.datum) <= 1e9)) {
+    return invalid_argument(text("datum is ", *model.datum, "; it must be in [-1e9, 1e9]"));
   }
   if (Status s = check_tile(model, settings); !s.ok()) return s;
   const TerrainWindow inner = inner_of(model);
@@ -117,6 +122,50 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   for (const ImageView<float>& view : outputs.horizon) {
     if (view.empty()) return invalid_input("horizon has an image without data");
     if (Status s = check_size("horizon", view, inner); !s.ok()) return s;
+  }
+  return {};
+}
+
+Status check_terrain_band(const ElevationModel& model, const TerrainBand& band,
+                          const TerrainSettings& settings, const TerrainOutputs& outputs) {
+  const TerrainWindow inner = inner_of(model);
+  if (inner.width != model.heights.width) {
+    return invalid_argument(text("inner is ", inner.width, " cells wide; a band's is as wide as ",
+                                 "the model, ", model.heights.width));
+  }
+  if (band.height < 1 || band.height > kMostCells) {
+    return invalid_input(
+        text("band.height is ", band.height, "; it must be in [1, ", kMostCells, "]"));
+  }
+  if (Status s = check_terrain(model, settings, outputs, band.height); !s.ok()) return s;
+  const int rows = model.heights.height;
+  if (band.row < 0 || rows > band.height - band.row) {
+    return invalid_argument(text("band.row is ", band.row, "; its ", rows,
+                                 " rows must lie in the model's ", band.height));
+  }
+  const int end = inner.y + inner.height;
+  if (inner.y < std::min(kTerrainBandHalo, band.row + inner.y) ||
+      rows - end < std::min(kTerrainBandHalo, band.height - band.row - end)) {
+    return invalid_argument(text("inner has ", inner.y, " rows above it and ", rows - end,
+                                 " below; a band needs ", kTerrainBandHalo,
+                                 " or those up to the model's border"));
+  }
+  if (!model.surround.heights.empty()) {
+    return invalid_argument("surround is given; bands need none, their results are exact");
+  }
+  if (!model.datum) return invalid_argument("datum is missing; all bands need the same");
+  double cell = std::min(model.cell_width, model.cell_height);
+  for (const double width : model.row_widths) cell = std::min(cell, width);
+  if (std::isfinite(settings.radius) && settings.radius >= cell * (kMostMarched + 1)) {
+    return unsupported(text("radius is ", settings.radius, "; bands need infinity, or less than ",
+                            cell * (kMostMarched + 1)));
+  }
+  const bool first = band.up ? band.row + end == band.height : band.row + inner.y == 0;
+  const bool last = band.up ? band.row + inner.y == 0 : band.row + end == band.height;
+  if (std::isinf(settings.radius) && ((!first && !band.from) || (!last && !band.to))) {
+    return invalid_argument(
+        "band.from or band.to is missing; only the first and the last band do "
+        "without");
   }
   return {};
 }

@@ -2,13 +2,17 @@
 #define OBSCURA_SRC_TERRAIN_CHECK_TERRAIN_H_
 
 #include <cmath>
+#include <optional>
 
 #include "obscura/terrain.h"
 
 namespace obscura {
 
+// `rows`: of the whole model, where the model is a band of it; each has a width.
 Status check_terrain(const ElevationModel& model, const TerrainSettings& settings,
-                     const TerrainOutputs& outputs);
+                     const TerrainOutputs& outputs, std::optional<int> rows = {});
+Status check_terrain_band(const ElevationModel& model, const TerrainBand& band,
+                          const TerrainSettings& settings, const TerrainOutputs& outputs);
 
 inline bool has_height(const ElevationModel& model, float height) {
   constexpr float kMost = 1e9f;

@@ -58,9 +58,8 @@ std::vector<double> anisotropic_weights(const TerrainSettings& settings) {
 
 }  // namespace
 
-std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, double cell_width,
+std::vector<TerrainDirection> terrain_directions(Extent size, double cell_width, double cell_height,
                                                  const TerrainSettings& settings) {
-  const int width = model.heights.width, height = model.heights.height;
   const double earth = settings.curvature ? kEarthRadius / (1 - settings.refraction)
                                           : std::numeric_limits<double>::infinity();
   const std::vector<double> weights = anisotropic_weights(settings);
@@ -70,8 +69,8 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, do
     const double azimuth = 2 * std::numbers::pi * k / settings.azimuths;
     // In columns and rows for each unit of the way.
     double across = std::sin(azimuth) / cell_width;
-    double down = -std::cos(azimuth) / model.cell_height;
-    double cell_across = cell_width, cell_down = model.cell_height;
+    double down = -std::cos(azimuth) / cell_height;
+    double cell_across = cell_width, cell_down = cell_height;
     d.index = k;
     d.sweep.weight = static_cast<float>(weights[k]);
     d.transposed = std::fabs(across) > std::fabs(down) * (1 + 1e-9);
@@ -82,8 +81,8 @@ std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, do
     // What is left of a multiple of pi.
     if (std::fabs(across) < 1e-12 * std::fabs(down)) across = 0;
     TerrainSweep& s = d.sweep;
-    s.width = d.transposed ? height : width;
-    s.height = d.transposed ? width : height;
+    s.width = d.transposed ? size.height : size.width;
+    s.height = d.whole_rows = d.transposed ? size.width : size.height;
     s.reversed = down > 0;
     s.shear = -across / std::fabs(down);
     const double step = 1 / std::fabs(down);

@@ -18,6 +18,7 @@ struct TerrainDirection {
   TerrainSweep sweep;
   std::vector<NearSample> near;
   std::vector<float> row_offset, row_slope;
+  int whole_rows = 0;                                      // swept rows of the whole model
   double step = 1;                                         // world units from row to row
   double earth = std::numeric_limits<double>::infinity();  // its radius, with refraction
 
@@ -27,11 +28,13 @@ struct TerrainDirection {
     return -y * y / (2 * earth);
   }
   // Along the sweep, from the middle row.
-  double position(int row) const { return (row - 0.5 * (sweep.height - 1)) * step; }
+  double position(int row) const { return (row - 0.5 * (whole_rows - 1)) * step; }
+  // Whether lines come from southern rows.
+  bool up() const { return transposed ? sweep.shear < 0 : sweep.reversed; }
 };
 
-// The directions of all azimuths over a model of this size, whose cells have this width.
-std::vector<TerrainDirection> terrain_directions(const ElevationModel& model, double cell_width,
+// The directions of all azimuths over a model of this size, whose cells have these sides.
+std::vector<TerrainDirection> terrain_directions(Extent size, double cell_width, double cell_height,
                                                  const TerrainSettings& settings);
 
 }  // namespace obscura

@@ -27,7 +27,9 @@ void DominanceRing::row(const TerrainPlane& heights, int y, int x0, int x1,
   const int count = x1 - x0;
   const float* own = heights.row(y) + x0;
   for (const Cell& cell : cells_) {
-    if (y + cell.y < 0 || y + cell.y >= heights.height()) continue;
+    // Margins have no data, or the rows around a band.
+    if (y + cell.y < -heights.margin()) continue;
+    if (y + cell.y >= heights.height() + heights.margin()) continue;
     const float* other = heights.row(y + cell.y) + x0 + cell.x;
     for (int i = 0; i < count; ++i) {
       const float weight = other[i] > kChainEnd ? cell.weight : 0.0f;

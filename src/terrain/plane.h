@@ -14,26 +14,29 @@ namespace obscura {
 // A grid with the margins that the sweeps need.
 class TerrainPlane {
  public:
-  // Contents are indeterminate afterwards. Allocates only when the plane grows.
-  void resize(int width, int height) {
+  // Contents are indeterminate afterwards. Allocates only when the plane grows. `margin`: rows
+  // above and below, at least 1.
+  void resize(int width, int height, int margin = 1) {
     width_ = width;
     height_ = height;
+    margin_ = margin;
     pitch_ = (static_cast<std::ptrdiff_t>(width) + 2 * kTerrainMargin + 15) / 16 * 16;
-    const std::size_t needed = static_cast<std::size_t>(pitch_) * (height + 2);
+    const std::size_t needed = static_cast<std::size_t>(pitch_) * (height + 2 * margin);
     if (values_.size() < needed) values_ = LargeArray<float>(needed);
   }
 
   int width() const { return width_; }
   int height() const { return height_; }
+  int margin() const { return margin_; }
   std::ptrdiff_t pitch() const { return pitch_; }
-  // Of row y in [-1, height], column 0; columns from -kTerrainMargin on.
-  float* row(int y) { return values_.data() + (y + 1) * pitch_ + kTerrainMargin; }
-  const float* row(int y) const { return values_.data() + (y + 1) * pitch_ + kTerrainMargin; }
+  // Of row y in [-margin, height + margin), column 0; columns from -kTerrainMargin on.
+  float* row(int y) { return values_.data() + (y + margin_) * pitch_ + kTerrainMargin; }
+  const float* row(int y) const { return values_.data() + (y + margin_) * pitch_ + kTerrainMargin; }
   // The whole of it, margins included.
   void fill_row(int y, float value) { std::fill_n(row(y) - kTerrainMargin, pitch_, value); }
 
  private:
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0, margin_ = 1;
   std::ptrdiff_t pitch_ = 0;
   LargeArray<float> values_;
 };

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "core/large_array.h"
+#include "obscura/terrain.h"
 
 namespace obscura {
 
@@ -38,19 +40,23 @@ struct NearSample {
   float drop = 0;  // what the curvature of the earth takes from the slope
 };
 
-// A point of a line: its height, and its swept row, which may lie before the grid's first.
-struct LinePoint {
-  float height;
-  int row;
-};
+// A point of a line; its swept row may lie before the grid's first.
+using LinePoint = TerrainHullPoint;
 
-// What lies on lines before they enter the grid.
+// What lies on lines before they enter the grid, and what becomes of them when they leave it.
 class LineEntries {
  public:
   virtual ~LineEntries() = default;
   // Of the line that is at column `column` + shear * row in any row, before `entry`, the row in
   // which it enters: the points of the upper hull as seen from there, nearest first.
   virtual std::span<const LinePoint> before(int column, int entry, int worker) = 0;
+  // Whether lines are handed on that leave the grid behind its last row, or at its sides.
+  virtual bool wants_last_row() const { return false; }
+  virtual bool wants_sides() const { return false; }
+  // Takes over a line whose last row in the grid is `row`: its point there, then the hull before.
+  virtual void leave(int row, int x, std::span<const LinePoint> hull, int worker) {
+    (void)row, (void)x, (void)hull, (void)worker;
+  }
 };
 
 enum TerrainSum {
@@ -77,6 +83,7 @@ struct TerrainSweep {
   const float *row_offset = nullptr, *row_slope = nullptr;
   const NearSample* near = nullptr;
   int near_count = 0;
+  int near_before = 0;             // rows before the grid's first that they may read
   int marched_rows = 0;            // as far as these samples go
   float same_rise = 0;             // rises per row that differ by less are the same
   LineEntries* entries = nullptr;  // null: nothing lies before the grid; no window then
@@ -105,6 +112,7 @@ class TerrainScratch {
   LargeArray<float> line_heights;
   LargeArray<float> block_points;  // as horizon_points, looking forth
   LargeArray<float> slopes;
+  std::vector<LinePoint> hull;  // of a line that leaves
 };
 
 int terrain_blocks(const TerrainSweep& sweep);

@@ -47,6 +47,7 @@ class Block {
   Block(const TerrainSweep& sweep, int first_line, int worker, TerrainScratch* scratch)
       : s_(sweep),
         worker_(worker),
+        hull_(scratch->hull),
         position_{sweep, first_line},
         back_(scratch->horizon_points.data()),
         forth_(scratch->block_points.data()),
@@ -61,6 +62,7 @@ class Block {
     windows_ = s_.window > 0 && s_.window < end - begin_;
     std::fill_n(none_, kLines, kNoHeight);
     slot_of_row_0_ = s_.entries ? 1 + s_.rows_before : 1 - begin_;
+    const bool leave = s_.entries && (s_.entries->wants_last_row() || s_.entries->wants_sides());
     for (int row = begin_; row < end; ++row) {
       SetRow(row);
       if (s_.entries) EnterLines();
@@ -70,6 +72,7 @@ class Block {
       } else {
         std::fill(slopes_ + first_, slopes_ + last_, std::numeric_limits<float>::lowest());
       }
+      if (leave) LeaveLines();
       if (inner_first_ >= inner_last_) continue;
       LookNear();
       AddSums();
@@ -103,7 +106,10 @@ class Block {
   // Hangs up the chains of lines that have just come into the grid: of those in its first row, then
   // of one at most in each row, at either side.
   void EnterLines() {
-    if (row_ == begin_) back_.Clear(slot_ - 1);
+    if (row_ == begin_) {
+      back_.Clear(slot_ - 1);
+      std::fill_n(LineHeights(slot_ - 1), kLines, kNoHeight);
+    }
     const int before = row_ == 0 ? x0_ : position_.column(row_ - 1);
     for (int x = 0; x < s_.width; x += std::max(1, row_ == 0 ? 1 : s_.width - 1)) {
       const int line = x - x0_;
@@ -112,11 +118,37 @@ class Block {
       if (row_ > 0 && x_before >= 0 && x_before < s_.width) continue;
       int slot = slot_ - 1;
       for (const LinePoint& p : s_.entries->before(position_.first_line + line, row_, worker_)) {
+        if (p.row == row_ - 1) {
+          LineHeights(slot)[line] = p.height;
+          continue;
+        }
         back_.Set(slot, line, p.height, p.row + slot_of_row_0_);
         slot = p.row + slot_of_row_0_;
       }
       back_.Set(slot, line, kChainEnd, 0);
     }
+  }
+
+  // Hands on the hulls of lines that are in the grid for the last time.
+  void LeaveLines() {
+    const int begin = std::max(0, -x0_), end = std::min(kLines, s_.width - x0_);
+    if (row_ == s_.height - 1) {
+      for (int line = begin; line < end && s_.entries->wants_last_row(); ++line) Leave(line);
+    } else if (s_.entries->wants_sides()) {
+      const int step = position_.column(row_ + 1) - x0_;
+      if (step == 0) return;
+      const int line = (step > 0 ? s_.width - 1 : 0) - x0_;
+      if (line >= begin && line < end) Leave(line);
+    }
+  }
+  void Leave(int line) {
+    hull_.clear();
+    hull_.push_back({LineHeights(slot_)[line], row_});
+    float height = 0;
+    for (int slot = slot_; back_.Next(slot, line, &height, &slot);) {
+      hull_.push_back({height, slot - slot_of_row_0_});
+    }
+    s_.entries->leave(row_, x0_ + line, hull_, worker_);
   }
 
   void FindLineHeights() {
@@ -148,7 +180,7 @@ class Block {
     const bool has_before = windows_ && since >= s_.window;
     if (has_before && in_block == 0) TurnBlock();
     const bool fresh = in_block == 0;
-    const float* before = fresh ? none_ : LineHeights(slot_ - 1);
+    const float* before = fresh && !s_.entries ? none_ : LineHeights(slot_ - 1);
     for (int i = 0; i < first_; i += kLanes) back_.ClearLines(slot_, i);
     for (int i = last_; i < kLines; i += kLanes) back_.ClearLines(slot_, i);
     for (int i = first_; i < last_; i += kStep) {
@@ -214,7 +246,7 @@ class Block {
     const D d;
     for (int n = 0; n < s_.near_count; ++n) {
       const NearSample& sample = s_.near[n];
-      if (sample.back > row_) break;
+      if (sample.back > row_ + s_.near_before) break;
       const float* HWY_RESTRICT a = Row(row_ - sample.back) + x0_ + sample.column;
       const float* HWY_RESTRICT b =
           sample.half ? Row(row_ - sample.back + 1) + x0_ + sample.column : a;
@@ -287,6 +319,7 @@ class Block {
 
   const TerrainSweep& s_;
   const int worker_;
+  std::vector<LinePoint>& hull_;
   BlockPosition position_;
   Chains back_, forth_;
   float *lines_, *none_, *slopes_;

@@ -9,282 +9,308 @@
 #include "core/run_threads.h"
 #include "terrain/check_terrain.h"
 #include "terrain/directions.h"
+#include "terrain/hand_over.h"
 #include "terrain/local_dominance.h"
+#include "terrain/passes.h"
 #include "terrain/plane.h"
 #include "terrain/surround.h"
 
 namespace obscura {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-// A quantity is start + factor * the mean over the azimuths of its sum's terms, in [least, most].
-struct Wanted {
-  TerrainSum sum;
-  ImageView<float> view;
-  double start, factor, least, most;
-};
-
-// A pass over the model as it is, or turned upside down.
-struct Pass {
-  float sign = 1;
-  std::vector<Wanted> wanted;
-  bool horizon = false, dominance = false;
-
-  bool sweeps() const { return horizon || !wanted.empty(); }
-};
-
-std::vector<Pass> make_passes(const TerrainOutputs& o) {
-  Pass up, down;
-  down.sign = -1;
-  auto want = [](Pass& pass, TerrainSum sum, const ImageView<float>& view, double start,
-                 double factor, double most) {
-    if (!view.empty()) pass.wanted.push_back({sum, view, start, factor, 0, most});
-  };
-  want(up, kSumSvf, o.svf, 0, 1, 1);
-  want(up, kSumSvfNormal, o.svf_normal, 0, 1, 1);
-  want(up, kSumSvfCosine, o.svf_cosine, 0, 1, 1);
-  want(up, kSumOpenness, o.openness, 90, -kDegrees, 180);
-  want(up, kSumVisibleSky, o.visible_sky, 100, -100 * 2 / std::numbers::pi, 100);
-  want(up, kSumAsvf, o.asvf, 0, 1, 1);
-  up.horizon = !o.horizon.empty();
-  up.dominance = !o.local_dominance.empty();
-  want(down, kSumOpenness, o.negative_openness, 90, -kDegrees, 180);
-  std::vector<Pass> passes;
-  if (up.dominance || up.sweeps()) passes.push_back(std::move(up));
-  if (!down.wanted.empty()) passes.push_back(std::move(down));
-  return passes;
-}
-
-// Wanted rows whose cells are taken to be as wide as each other.
-struct Band {
-  int begin, end;
-  double cell_width;
-};
-
-std::vector<Band> make_bands(const ElevationModel& model) {
-  const TerrainWindow inner = inner_of(model);
-  const int height = inner.y + inner.height;
-  if (model.row_widths.empty()) return {{inner.y, height, model.cell_width}};
-  constexpr double kSpread = 1.02;
-  std::vector<Band> bands;
-  for (int y = inner.y; y < height;) {
-    double least = model.row_widths[y], most = least;
-    int end = y;
-    for (; end < height; ++end) {
-      const double low = std::min(least, model.row_widths[end]);
-      const double high = std::max(most, model.row_widths[end]);
-      if (high > kSpread * low) break;
-      least = low;
-      most = high;
-    }
-    bands.push_back({y, end, 0.5 * (least + most)});
-    y = end;
-  }
-  return bands;
-}
-
 class Terrain {
  public:
-  Terrain(const ElevationModel& model, const TerrainSettings& settings,
+  // `band`: null for a model as a whole. Rows of latitudes then count from the heights' first.
+  Terrain(const ElevationModel& model, const TerrainBand* band, const TerrainSettings& settings,
           const TerrainOutputs& outputs, Executor& executor, const RunOptions& run)
       : model_(model),
+        band_(band),
         settings_(settings),
         outputs_(outputs),
         executor_(executor),
-        passes_(make_passes(outputs)),
-        bands_(make_bands(model)),
-        progress_(static_cast<std::int64_t>(passes_.size() * bands_.size() * settings.azimuths),
-                  run.progress) {
-    for (const Band& band : bands_) {
-      directions_.push_back(terrain_directions(model, band.cell_width, settings));
-    }
-    // All memory is taken before an output is touched.
-    const Extent size = {model.heights.width, model.heights.height};
-    auto reserve = [&](TerrainPlane& plane) {
-      plane.resize(size.width, size.height);
-      plane.resize(size.height, size.width);
-    };
-    reserve(heights_);
-    std::size_t planes = 0;
-    for (const Pass& p : passes_) {
-      planes = std::max(planes, p.wanted.size() + (p.horizon ? 1 : 0));
-    }
-    sums_.resize(planes);
-    for (TerrainPlane& plane : sums_) reserve(plane);
-    scratch_.resize(executor.thread_count());
-    bool windows = false;
-    int before = 0;
-    for (auto& directions : directions_) {
-      for (TerrainDirection& d : directions) {
-        d.sweep.rows_before = SurroundLines::rows_before(model, d);
-        d.sweep.first_row = d.sweep.rows_before;
-        before = std::max(before, d.sweep.rows_before);
-        windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
+        passes_(terrain_passes(outputs)),
+        grid_(band ? inner_of(model)
+                   : TerrainWindow{0, 0, model.heights.width, model.heights.height}),
+        inner_(band ? TerrainWindow{0, 0, grid_.width, grid_.height} : inner_of(model)),
+        first_row_(band ? band->row + grid_.y : 0),
+        latitudes_(band ? terrain_latitudes(model, 0, band->height)
+                        : terrain_latitudes(model, inner_.y, inner_.y + inner_.height)) {
+    const Extent whole = {grid_.width, band ? band->height : grid_.height};
+    std::int64_t work = 0;
+    for (const TerrainLatitudes& l : latitudes_) {
+      directions_.push_back(terrain_directions(whole, l.cell_width, model.cell_height, settings));
+      for (TerrainDirection& d : directions_.back()) {
+        if (band) cut_to_band(&d);
+        if (takes_part(l, d.up())) ++work;
       }
     }
-    const int rows = std::max(size.width, size.height) + before;
-    for (TerrainScratch& s : scratch_) s.resize(rows, windows);
-    surround_points_.resize(executor.thread_count());
-    for (auto& points : surround_points_) {
-      if (before > 0) points.reserve(rows / model.surround.factor + 2);
-    }
+    progress_.emplace(work * static_cast<std::int64_t>(passes_.size()), run.progress);
+    reserve();
   }
 
   Status run() {
-    for (const Pass& pass : passes_) {
-      for (std::size_t b = 0; b < bands_.size(); ++b) {
-        if (!run(pass, bands_[b], directions_[b])) {
-          return {StatusCode::kCancelled, "the terrain sweep was cancelled by the caller"};
-        }
+    int sweep = 0;
+    for (const TerrainPass& pass : passes_) {
+      for (std::size_t l = 0; l < latitudes_.size(); ++l) {
+        if (Status s = run(pass, latitudes_[l], directions_[l], sweep); !s.ok()) return s;
+        sweep += settings_.azimuths;
       }
     }
     return {};
   }
 
  private:
-  bool run(const Pass& pass, const Band& band, const std::vector<TerrainDirection>& directions) {
-    for (const bool transposed : {false, true}) {
-      prepare(pass, transposed);
-      if (pass.dominance && !transposed) find_dominance(band);
-      for (const TerrainDirection& direction : directions) {
-        if (direction.transposed != transposed) continue;
-        if (pass.sweeps()) sweep(pass, band, direction);
-        if (!progress_.advance()) return false;
-      }
-      for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
-        fold(sums_[i], pass.wanted[i], band, transposed);
+  int rows_above() const { return band_ ? grid_.y : 0; }
+  int rows_below() const { return band_ ? model_.heights.height - grid_.y - grid_.height : 0; }
+  // Rows of the grid where these latitudes' results are wanted; the first is not below 0.
+  int begin_of(const TerrainLatitudes& l) const { return std::max(l.begin - first_row_, 0); }
+  int end_of(const TerrainLatitudes& l) const {
+    return std::min(l.end - first_row_, inner_.y + inner_.height);
+  }
+  // Whether lines run through the grid to these latitudes, and whether they go on behind it.
+  bool takes_part(const TerrainLatitudes& l, bool up) const {
+    if (!band_) return true;
+    return up == band_->up && (up ? l.begin < first_row_ + grid_.height : l.end > first_row_);
+  }
+  bool goes_on(const TerrainLatitudes& l, bool up) const {
+    return up ? l.begin < first_row_ : l.end > first_row_ + grid_.height;
+  }
+
+  // A direction over the whole model becomes one over the band's rows.
+  void cut_to_band(TerrainDirection* d) const {
+    TerrainSweep& s = d->sweep;
+    // A window that is not marched reaches over the whole model.
+    if (s.window > 0) s.window = std::numeric_limits<int>::max() / 2;
+    if (d->transposed) {
+      s.width = grid_.height;
+      return;
+    }
+    s.height = grid_.height;
+    s.rows_before = s.reversed ? band_->height - first_row_ - grid_.height : first_row_;
+    s.first_row = s.rows_before;
+    s.near_before = s.reversed ? rows_below() : rows_above();
+  }
+
+  // All memory is taken before an output is touched.
+  void reserve() {
+    const int margin = std::max({1, rows_above(), rows_below()});
+    auto take = [&](TerrainPlane& plane, int rows) {
+      plane.resize(grid_.width, grid_.height, rows);
+      plane.resize(grid_.height, grid_.width);
+    };
+    take(heights_, margin);
+    std::size_t planes = 0;
+    for (const TerrainPass& p : passes_) {
+      planes = std::max(planes, p.wanted.size() + (p.horizon ? 1 : 0));
+    }
+    sums_.resize(planes);
+    for (TerrainPlane& plane : sums_) take(plane, 1);
+    scratch_.resize(executor_.thread_count());
+    bool windows = false;
+    int rows = std::max(grid_.width, grid_.height), before = 0;
+    for (auto& directions : directions_) {
+      for (TerrainDirection& d : directions) {
+        if (!band_) {
+          d.sweep.rows_before = SurroundLines::rows_before(model_, d);
+          d.sweep.first_row = d.sweep.rows_before;
+          before = std::max(before, d.sweep.rows_before);
+        }
+        rows = std::max(rows, d.sweep.height + d.sweep.rows_before);
+        windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
       }
     }
-    return true;
+    for (TerrainScratch& s : scratch_) s.resize(rows, windows);
+    points_.resize(executor_.thread_count());
+    for (auto& points : points_) {
+      if (before > 0) points.reserve(rows / model_.surround.factor + 2);
+    }
   }
 
-  // The model's heights with margins, relative to its first cell, and sums of zero.
-  void prepare(const Pass& pass, bool transposed) {
-    const Extent size = {model_.heights.width, model_.heights.height};
-    const int columns = transposed ? size.height : size.width;
-    const int rows = transposed ? size.width : size.height;
-    heights_.resize(columns, rows);
-    for (TerrainPlane& plane : sums_) plane.resize(columns, rows);
-    executor_.parallel_for(rows + 2, [&](int row, int) {
-      heights_.fill_row(row - 1, kNoHeight);
-      for (std::size_t i = 0; i < pass.wanted.size(); ++i) sums_[i].fill_row(row - 1, 0.0f);
-    });
-    const double factor = pass.sign * settings_.z_factor;
-    for_tiles(size, executor_, [&](int x0, int y0, int x1, int y1) {
-      TileBuffer tile;
-      for (int y = y0; y < y1; ++y) {
-        float* to = transposed ? tile.row(y - y0) : heights_.row(y) + x0;
-        for (int x = x0; x < x1; ++x) {
-          const float height = model_.heights(x, y);
-          const auto value = static_cast<float>(factor * (double{height} - base_));
-          to[x - x0] = has_height(model_, height) ? value : kNoHeight;
+  Status run(const TerrainPass& pass, const TerrainLatitudes& latitudes,
+             const std::vector<TerrainDirection>& directions, int first_sweep) {
+    const bool results = begin_of(latitudes) < end_of(latitudes);
+    int prepared = -1;
+    for (const TerrainStep& step : kTerrainSteps) {
+      if (!takes_part(latitudes, step.up)) continue;
+      if (prepared != int{step.transposed}) prepare_heights(pass, step.transposed);
+      prepared = step.transposed;
+      prepare_sums(pass, step.transposed);
+      if (pass.dominance && step.first && results) find_dominance(latitudes);
+      for (const TerrainDirection& d : directions) {
+        if (d.transposed != step.transposed || d.up() != step.up) continue;
+        if (pass.sweeps()) {
+          if (Status s = sweep(pass, latitudes, d, first_sweep + d.index); !s.ok()) return s;
+        }
+        if (!progress_->advance()) {
+          return {StatusCode::kCancelled, "the terrain sweep was cancelled by the caller"};
         }
       }
-      if (!transposed) return;
-      for (int x = x0; x < x1; ++x) {
-        for (int y = y0; y < y1; ++y) heights_.row(x)[y] = tile.row(y - y0)[x - x0];
+      for (std::size_t i = 0; i < pass.wanted.size() && results; ++i) {
+        fold(sums_[i], pass.wanted[i], latitudes, step);
       }
+    }
+    return {};
+  }
+
+  // The model's heights with margins, relative to its datum.
+  void prepare_heights(const TerrainPass& pass, bool transposed) {
+    const int above = rows_above(), below = rows_below();
+    if (transposed) {
+      heights_.resize(grid_.height, grid_.width);
+    } else {
+      heights_.resize(grid_.width, grid_.height, std::max({1, above, below}));
+    }
+    const int margin = heights_.margin();
+    executor_.parallel_for(heights_.height() + 2 * margin,
+                           [&](int row, int) { heights_.fill_row(row - margin, kNoHeight); });
+    const double factor = pass.sign * settings_.z_factor;
+    // Rows around a band are margins, of columns where it is transposed.
+    for_tiles({grid_.width, above + grid_.height + below}, executor_,
+              [&](int x0, int y0, int x1, int y1) {
+                TileBuffer tile;
+                for (int y = y0; y < y1; ++y) {
+                  float* to = transposed ? tile.row(y - y0) : heights_.row(y - above) + x0;
+                  for (int x = x0; x < x1; ++x) {
+                    const float height = model_.heights(x, grid_.y - above + y);
+                    const auto value = static_cast<float>(factor * (double{height} - datum_));
+                    to[x - x0] = has_height(model_, height) ? value : kNoHeight;
+                  }
+                }
+                if (!transposed) return;
+                for (int x = x0; x < x1; ++x) {
+                  float* to = heights_.row(x) - above;
+                  for (int y = y0; y < y1; ++y) to[y] = tile.row(y - y0)[x - x0];
+                }
+              });
+  }
+
+  void prepare_sums(const TerrainPass& pass, bool transposed) {
+    const Extent size =
+        transposed ? Extent{grid_.height, grid_.width} : Extent{grid_.width, grid_.height};
+    for (TerrainPlane& plane : sums_) plane.resize(size.width, size.height);
+    executor_.parallel_for(size.height + 2, [&](int row, int) {
+      for (std::size_t i = 0; i < pass.wanted.size(); ++i) sums_[i].fill_row(row - 1, 0.0f);
     });
   }
 
-  void sweep(const Pass& pass, const Band& band, const TerrainDirection& direction) {
+  Status sweep(const TerrainPass& pass, const TerrainLatitudes& latitudes,
+               const TerrainDirection& direction, int number) {
     TerrainSweep s = direction.sweep;
     s.heights = heights_.row(0);
     s.pitch = heights_.pitch();
     s.near = direction.near.data();
     s.near_count = static_cast<int>(direction.near.size());
     if (!direction.row_offset.empty()) {
-      s.row_offset = direction.row_offset.data();
-      s.row_slope = direction.row_slope.data();
+      const int skipped = band_ ? s.rows_before : 0;
+      s.row_offset = direction.row_offset.data() + skipped;
+      s.row_slope = direction.row_slope.data() + skipped;
     }
     for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
       s.sums[pass.wanted[i].sum] = sums_[i].row(0);
     }
     if (pass.horizon) s.sums[kSumHorizon] = sums_[pass.wanted.size()].row(0);
-    s.inner_column_begin = direction.transposed ? inner_.y : inner_.x;
-    s.inner_column_end =
-        s.inner_column_begin + (direction.transposed ? inner_.height : inner_.width);
-    s.inner_row_begin = direction.transposed ? inner_.x : inner_.y;
-    s.inner_row_end = s.inner_row_begin + (direction.transposed ? inner_.width : inner_.height);
-    SurroundLines surround(model_, direction, pass.sign * settings_.z_factor, base_,
-                           &surround_points_);
+    const int begin = begin_of(latitudes), end = end_of(latitudes);
+    const int left = inner_.x, right = inner_.x + inner_.width;
+    s.inner_column_begin = direction.transposed ? begin : left;
+    s.inner_column_end = direction.transposed ? end : right;
+    s.inner_row_begin = direction.transposed ? left : begin;
+    s.inner_row_end = direction.transposed ? right : end;
+    SurroundLines surround(model_, direction, pass.sign * settings_.z_factor, datum_, &points_);
     if (!model_.surround.heights.empty()) s.entries = &surround;
+    const bool hulls = band_ && s.window > 0;
+    HandOver hand_over(direction, hulls ? band_->from : nullptr,
+                       hulls && goes_on(latitudes, direction.up()) ? band_->to : nullptr, &points_);
+    if (hulls) {
+      s.entries = &hand_over;
+      for (TerrainHulls* h : {band_->from, band_->to}) {
+        if (!h) continue;
+        if (Status begun = h->begin(number); !begun.ok()) return begun;
+      }
+    }
     executor_.parallel_for(terrain_blocks(s), [&](int block, int worker) {
       sweep_terrain_block(s, block, worker, &scratch_[worker]);
     });
-    if (pass.horizon) {
+    if (pass.horizon && begin < end) {
+      constexpr double kDegrees = 180 / std::numbers::pi;
       fold(sums_[pass.wanted.size()],
            {kSumHorizon, outputs_.horizon[direction.index], 0, settings_.azimuths * kDegrees, -90,
             90},
-           band, direction.transposed, true);
+           latitudes, {direction.transposed, direction.up(), true, true});
     }
+    return hand_over.status();
   }
 
-  void find_dominance(const Band& band) {
-    const ImageView<float>& out = outputs_.local_dominance;
-    for_tiles({inner_.width, band.end - band.begin}, executor_,
+  // Calls body(x0, y0, x1, y1) for tiles of the latitudes' results, in cells of the grid.
+  template <class Body>
+  void for_results(const TerrainLatitudes& latitudes, Body&& body) {
+    const int begin = begin_of(latitudes);
+    for_tiles({inner_.width, end_of(latitudes) - begin}, executor_,
               [&](int x0, int y0, int x1, int y1) {
-                for (int y = band.begin + y0; y < band.begin + y1; ++y) {
-                  float dominance[kTerrainTile];
-                  ring_.row(heights_, y, inner_.x + x0, inner_.x + x1, dominance);
-                  for (int x = x0; x < x1; ++x) {
-                    const bool has = has_height(model_, model_.heights(inner_.x + x, y));
-                    out(x, y - inner_.y) =
-                        has ? dominance[x - x0] : std::numeric_limits<float>::quiet_NaN();
-                  }
-                }
+                body(x0 + inner_.x, y0 + begin, x1 + inner_.x, y1 + begin);
               });
   }
+  bool has_height_at(int x, int y) const {
+    return has_height(model_, model_.heights(x, y + grid_.y));
+  }
 
-  // Adds sums to an output. The first of the two grids starts it, the second ends it; `whole`: one
-  // is all.
-  void fold(const TerrainPlane& sums, const Wanted& wanted, const Band& band, bool transposed,
-            bool whole = false) {
+  void find_dominance(const TerrainLatitudes& latitudes) {
+    const ImageView<float>& out = outputs_.local_dominance;
+    for_results(latitudes, [&](int x0, int y0, int x1, int y1) {
+      for (int y = y0; y < y1; ++y) {
+        float dominance[kTerrainTile];
+        ring_.row(heights_, y, x0, x1, dominance);
+        for (int x = x0; x < x1; ++x) {
+          out(x - inner_.x, y - inner_.y) =
+              has_height_at(x, y) ? dominance[x - x0] : std::numeric_limits<float>::quiet_NaN();
+        }
+      }
+    });
+  }
+
+  // Adds sums to an output, which the first step starts and the last one ends.
+  void fold(const TerrainPlane& sums, const TerrainWanted& wanted,
+            const TerrainLatitudes& latitudes, const TerrainStep& step) {
     const auto factor = static_cast<float>(wanted.factor / settings_.azimuths);
     const auto start = static_cast<float>(wanted.start);
     const auto least = static_cast<float>(wanted.least), most = static_cast<float>(wanted.most);
-    const bool first = whole || !transposed, last = whole || transposed;
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     auto fold_row = [&](int y, int x0, int x1, const float* sum) {
       for (int x = x0; x < x1; ++x) {
         float& out = wanted.view(x - inner_.x, y - inner_.y);
-        float value = (first ? start : out) + factor * sum[x - x0];
-        if (last) value = std::clamp(value, least, most);
-        out = has_height(model_, model_.heights(x, y)) ? value : kNone;
+        float value = (step.first ? start : out) + factor * sum[x - x0];
+        if (step.last) value = std::clamp(value, least, most);
+        out = has_height_at(x, y) ? value : kNone;
       }
     };
-    for_tiles({inner_.width, band.end - band.begin}, executor_,
-              [&](int x0, int y0, int x1, int y1) {
-                x0 += inner_.x;
-                x1 += inner_.x;
-                y0 += band.begin;
-                y1 += band.begin;
-                TileBuffer tile;
-                for (int x = x0; transposed && x < x1; ++x) {
-                  for (int y = y0; y < y1; ++y) tile.row(y - y0)[x - x0] = sums.row(x)[y];
-                }
-                for (int y = y0; y < y1; ++y) {
-                  fold_row(y, x0, x1, transposed ? tile.row(y - y0) : sums.row(y) + x0);
-                }
-              });
+    for_results(latitudes, [&](int x0, int y0, int x1, int y1) {
+      TileBuffer tile;
+      for (int x = x0; step.transposed && x < x1; ++x) {
+        for (int y = y0; y < y1; ++y) tile.row(y - y0)[x - x0] = sums.row(x)[y];
+      }
+      for (int y = y0; y < y1; ++y) {
+        fold_row(y, x0, x1, step.transposed ? tile.row(y - y0) : sums.row(y) + x0);
+      }
+    });
   }
 
   const ElevationModel& model_;
+  const TerrainBand* const band_;
   const TerrainSettings& settings_;
   const TerrainOutputs& outputs_;
   Executor& executor_;
-  const std::vector<Pass> passes_;
-  const std::vector<Band> bands_;
-  std::vector<std::vector<TerrainDirection>> directions_;  // by band
+  const std::vector<TerrainPass> passes_;
+  const TerrainWindow grid_;   // that lines run through, in cells of the heights
+  const TerrainWindow inner_;  // where results are wanted, in cells of the grid
+  const int first_row_;        // of latitudes, which is the grid's first
+  const std::vector<TerrainLatitudes> latitudes_;
+  std::vector<std::vector<TerrainDirection>> directions_;  // by latitudes
   const DominanceRing ring_{settings_};
-  Progress progress_;
-  const double base_ = first_height(model_);
-  const TerrainWindow inner_ = inner_of(model_);
+  std::optional<Progress> progress_;
+  const double datum_ = model_.datum ? *model_.datum : first_height(model_);
   TerrainPlane heights_;
   std::vector<TerrainPlane> sums_;  // in the order of a pass's quantities; the horizon is last
   std::vector<TerrainScratch> scratch_;
-  SurroundLines::Points surround_points_;
+  HandOver::Points points_;
 };
 
 }  // namespace
@@ -295,7 +321,18 @@ Status compute_terrain(const ElevationModel& model, const TerrainSettings& setti
     if (Status s = check_terrain(model, settings, outputs); !s.ok()) return s;
     const RunThreads threads(run);
     if (!threads.status().ok()) return threads.status();
-    return Terrain(model, settings, outputs, threads.executor(), run).run();
+    return Terrain(model, nullptr, settings, outputs, threads.executor(), run).run();
+  });
+}
+
+Status compute_terrain_band(const ElevationModel& model, const TerrainBand& band,
+                            const TerrainSettings& settings, const TerrainOutputs& outputs,
+                            const RunOptions& run) {
+  return guarded("the terrain sweep; use narrower bands", [&]() -> Status {
+    if (Status s = check_terrain_band(model, band, settings, outputs); !s.ok()) return s;
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    return Terrain(model, &band, settings, outputs, threads.executor(), run).run();
   });
 }
 

@@ -1,12 +1,12 @@
 // obscura terrain: sky-view factor, openness and horizons of an elevation model.
-#include <unistd.h>
-
 #include <cmath>
 #include <memory>
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/option_table.h"
 #include "apps/obscura/output.h"
+#include "apps/obscura/terrain_bands.h"
+#include "apps/obscura/terrain_options.h"
 #include "apps/obscura/terrain_quantities.h"
 #include "apps/obscura/terrain_tiles.h"
 #include "fmt/format.h"
@@ -124,39 +124,6 @@ std::string apply_preset(TerrainPreset preset, TerrainOptions* o) {
   return "svf";
 }
 
-// "2G", "500M": bytes; by default three quarters of the machine's memory.
-Status parse_memory(const std::string& text, double* bytes) {
-  if (text.empty()) {
-    *bytes = 0.75 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-             static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    return {};
-  }
-  double number = 0;
-  const double unit = text.ends_with("G") ? 1e9 : text.ends_with("M") ? 1e6 : 0;
-  if (unit > 0 && parse_number(std::string_view(text).substr(0, text.size() - 1), &number) &&
-      number > 0 && std::isfinite(number)) {
-    *bytes = number * unit;
-    return {};
-  }
-  return invalid_argument(
-      fmt::format("--memory is '{}'; it must be a size such as 500M or 2G", text));
-}
-
-Status parse_part(const std::string& text, int* part, int* parts) {
-  if (text.empty()) return {};
-  const std::size_t slash = text.find('/');
-  double i = 0, n = 0;
-  if (slash != text.npos && parse_number(text.substr(0, slash), &i) &&
-      parse_number(text.substr(slash + 1), &n) && i >= 1 && n <= 1e6 && i <= n &&
-      i == std::floor(i) && n == std::floor(n)) {
-    *part = static_cast<int>(i);
-    *parts = static_cast<int>(n);
-    return {};
-  }
-  return invalid_argument(
-      fmt::format("--part is '{}'; it must be I/N with whole numbers, 1 <= I <= N", text));
-}
-
 Status parse_terrain(const TerrainCommand& c, TerrainRequest* p) {
   if (Status s = c.table.read(&p->options); !s.ok()) return s;
   const std::string usual = apply_preset(p->options.preset, &p->options);
@@ -199,15 +166,12 @@ std::string settings_text(const TerrainRequest& p) {
   return text;
 }
 
-bool tiles_asked(const TerrainCommand& c) {
-  return c.tile > 0 || !c.memory.empty() || !c.part.empty();
-}
-
-// Tiles, where they are asked for and needed; `done` says so.
-Status run_in_tiles(const TerrainCommand& c, const TerrainRequest& p,
+// Parts, where they are asked for and needed; `done` says so.
+Status run_in_parts(const TerrainCommand& c, const TerrainRequest& p,
                     const tools::RasterOptions& read, bool quiet, bool* done) {
   *done = false;
-  if (!tiles_asked(c)) return {};
+  const bool in_tiles = c.tile > 0 || !c.part.empty();
+  if (!in_tiles && c.memory.empty()) return {};
   const std::string in = tools::file_ending(c.input), out = tools::file_ending(c.output);
   const bool image = in == ".png" || in == ".exr" || in == ".pfm" || in == ".npy";
   const bool tiff = out == ".tif" || out == ".tiff";
@@ -220,31 +184,42 @@ Status run_in_tiles(const TerrainCommand& c, const TerrainRequest& p,
   tools::RasterOptions corner = read;
   corner.window = tools::RasterWindow{0, 0, 1, 1};
   if (Status s = tools::read_raster(c.input, corner, &whole); !s.ok()) return s;
-  const int channels = p.quantities.channels(p.options.terrain.azimuths);
-  if (c.tile == 0 && c.part.empty() && whole_bytes(whole, channels) <= p.memory) return {};
-  TerrainTiles tiles;
+  return_large_arrays();
+  const int azimuths = p.options.terrain.azimuths, channels = p.quantities.channels(azimuths);
+  if (!in_tiles && whole_bytes(whole, channels) <= p.memory) return {};
+  TerrainSettings settings = p.options.terrain;
+  const double cell = std::sqrt(whole.cell_width * whole.cell_height);
+  settings.radius = p.options.radius.value * (p.options.radius.cells ? cell : 1);
+  settings.z_factor = whole.z_factor;
+  *done = true;
+  if (!in_tiles) {
+    if (std::isfinite(settings.radius) && settings.radius >= band_radius(whole)) {
+      return unsupported(fmt::format(
+          "--radius is {:.6g} m; with --memory it must be inf or less than {:.6g} m, {} cells",
+          settings.radius, band_radius(whole), kTerrainBandRadius));
+    }
+    TerrainBands bands{c.input, c.output, read, settings, p.quantities, settings_text(p)};
+    bands.rows = band_rows(whole, p.memory, p.quantities, azimuths, c.threads);
+    if (bands.rows == 0) {
+      return too_little_memory(
+          p.memory, "band of rows",
+          band_bytes(whole, kLeastBandRows, p.quantities, azimuths, c.threads));
+    }
+    bands.threads = c.threads;
+    bands.overviews = c.overviews;
+    bands.quiet = quiet;
+    return bands.run();
+  }
+  TerrainTiles tiles{c.input, c.output, read, settings, p.quantities, settings_text(p)};
   tiles.side = c.tile > 0 ? c.tile : tile_side(p.memory, channels);
   if (tiles.side == 0) {
-    return invalid_argument(fmt::format(
-        "--memory: {:.0f} MB do not hold a tile with its halo; give at least {:.0f}M",
-        1e-6 * p.memory,
-        std::ceil(1e-6 * 4 * (1280.0 * 1280 * (2 + channels) + 2 * 256.0 * 256 * channels))));
+    return too_little_memory(p.memory, "tile with its halo", tile_bytes(256, channels));
   }
-  tiles.input = c.input;
-  tiles.output = c.output;
-  tiles.read = read;
-  tiles.settings = p.options.terrain;
-  const double cell = std::sqrt(whole.cell_width * whole.cell_height);
-  tiles.settings.radius = p.options.radius.value * (p.options.radius.cells ? cell : 1);
-  tiles.settings.z_factor = whole.z_factor;
-  tiles.quantities = p.quantities;
-  tiles.about = settings_text(p);
   tiles.part = p.part;
   tiles.parts = p.parts;
   tiles.threads = c.threads;
   tiles.overviews = c.overviews;
   tiles.quiet = quiet;
-  *done = true;
   return tiles.run();
 }
 
@@ -261,7 +236,7 @@ Status run_terrain(const TerrainCommand& c, bool quiet) {
   read.z_factor = p.options.z_factor;
   read.network = c.network;
   bool done = false;
-  if (Status s = run_in_tiles(c, p, read, quiet, &done); !s.ok() || done) return s;
+  if (Status s = run_in_parts(c, p, read, quiet, &done); !s.ok() || done) return s;
   if (Status s = tools::read_raster(c.input, read, &raster); !s.ok()) return s;
   const double loaded = watch.seconds();
 
@@ -353,7 +328,7 @@ void add_terrain(App& app) {
       ->type_name("N");
   command
       ->add_option("--memory", c->memory,
-                   "Compute in tiles where the whole takes more than this, as 2G")
+                   "Compute in bands of rows, exactly, where the whole takes more than this, as 2G")
       ->type_name("SIZE");
   command
       ->add_option("--part", c->part,

@@ -21,6 +21,8 @@ class TerrainQuantities {
   void include(const std::string& name);
   bool only_shares() const;  // all in [0, 1], as a .png holds them
   int channels(int azimuths) const;
+  // Of the model's size that the sweeps sum up at once, at most.
+  int sums() const { return static_cast<int>(names_.size()); }
 
   // Makes the channels; the outputs last as long as this object does.
   TerrainOutputs allocate(int width, int height, int azimuths);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "apps/obscura/terrain_options.h"
+#include "apps/obscura/work_folder.h"
 #include "fmt/format.h"
 #include "io/images/files.h"
 #include "io/rasters/npy.h"
@@ -17,12 +19,6 @@ namespace fs = std::filesystem;
 // Horizons beyond the halo come from blocks of an eighth of its width.
 constexpr int kHalo = 512, kHaloBlocks = 8;
 
-// Bytes of a tile with its halo: heights as read and as swept, sums; results twice.
-double tile_bytes(double side, int channels) {
-  const double around = side + 2 * kHalo;
-  return 4 * (around * around * (2 + channels) + 2 * side * side * channels);
-}
-
 class TileRun {
  public:
   TileRun(const TerrainTiles& tiles, const tools::Raster& whole)
@@ -35,7 +31,9 @@ class TileRun {
     if (!std::isinf(t_.settings.radius)) {
       return unsupported("--radius must be inf for tiles");
     }
-    if (Status s = open_folder(); !s.ok()) return s;
+    const std::string about = fmt::format("{} size={}x{} tile={} halo={}", t_.about,
+                                          whole_.whole_width, whole_.whole_height, t_.side, halo_);
+    if (Status s = open_work_folder(folder_, t_.input, about); !s.ok()) return s;
     if (Status s = find_surround(); !s.ok()) return s;
     tools::ProgressBar bar("tiles", !t_.quiet);
     for (int i = t_.part - 1; i < count_; i += t_.parts) {
@@ -61,27 +59,6 @@ class TileRun {
     const int x = i % across_ * t_.side, y = i / across_ * t_.side;
     return {x, y, std::min(t_.side, whole_.whole_width - x),
             std::min(t_.side, whole_.whole_height - y)};
-  }
-
-  // Tiles of another raster or with other settings are not taken for these.
-  Status open_folder() {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) {
-      return {StatusCode::kInternal, fmt::format("cannot make {}: {}", folder_, error.message())};
-    }
-    const auto changed = fs::last_write_time(t_.input, error).time_since_epoch().count();
-    const std::string about =
-        fmt::format("{} input={} size={}x{} changed={} tile={} halo={}\n", t_.about, t_.input,
-                    whole_.whole_width, whole_.whole_height, changed, t_.side, halo_);
-    const std::string path = folder_ + "/about.txt";
-    if (!fs::exists(path)) return tools::write_text(path, about);
-    std::string other;
-    if (Status s = tools::read_bytes(path, &other); !s.ok()) return s;
-    if (other == about) return {};
-    return invalid_argument(
-        fmt::format("{} holds tiles of another run (see {}); remove it or give another --output",
-                    folder_, path));
   }
 
   Status find_surround() {
@@ -208,6 +185,12 @@ class TileRun {
 
 }  // namespace
 
+// Bytes of a tile with its halo: heights as read and as swept, sums; results twice.
+double tile_bytes(double side, int channels) {
+  const double around = side + 2 * kHalo;
+  return 4 * (around * around * (2 + channels) + 2 * side * side * channels);
+}
+
 int tile_side(double bytes, int channels) {
   int side = 0;
   while (side < 65536 && tile_bytes(side + 256, channels) <= bytes) side += 256;
@@ -215,7 +198,7 @@ int tile_side(double bytes, int channels) {
 }
 
 double whole_bytes(const tools::Raster& raster, int channels) {
-  return 4.0 * raster.whole_width * raster.whole_height * (2 + 2 * channels);
+  return kProgramBytes + 4.0 * raster.whole_width * raster.whole_height * (2 + 2 * channels);
 }
 
 Status TerrainTiles::run() {

@@ -25,8 +25,10 @@ struct TerrainTiles {
   Status run();
 };
 
-// Cells of a tile whose computation takes at most so many bytes; 0: none does.
+// Cells of a tile whose computation takes at most so many bytes, 0 where none does; bytes of a
+// tile.
 int tile_side(double bytes, int channels);
+double tile_bytes(double side, int channels);
 // What a raster takes that is computed as a whole.
 double whole_bytes(const tools::Raster& raster, int channels);
 

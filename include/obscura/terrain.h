@@ -40,10 +40,13 @@ struct TerrainWindow {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+// Heights beyond this have no data.
+inline constexpr float kMostTerrainHeight = 1e9f;
+
 // Caller-owned heights of a regular grid.
 struct ElevationModel {
   // [1, 262144] cells a side, in the unit of the cells' sides times 1 / z_factor. Cells that are
-  // NaN, infinite or beyond 1e9 in magnitude have no data.
+  // NaN, infinite or beyond kMostTerrainHeight in magnitude have no data.
   ImageView<const float> heights;
   double cell_width = 1, cell_height = 1;  // [1e-4, 1e6] world units, west to east, north to south
   std::optional<float> nodata{};           // cells of this value have no data
@@ -175,6 +178,9 @@ class TerrainHulls {
 // Rows that a band needs around those where results are wanted, where the model has them.
 inline constexpr int kTerrainBandHalo = 64;
 
+// Radii of bands are infinite or less than so many cells, of the shorter side.
+inline constexpr int kTerrainBandRadius = 25;
+
 // Where a band lies in its model, and how it goes on.
 struct TerrainBand {
   int height = 0;   // [1, 262144] rows of the whole model
@@ -193,7 +199,8 @@ struct TerrainBand {
 // Guarantees: on error the outputs are untouched, or parts of results if hulls cannot be kept.
 // Requires: model.inner spans the width; heights have kTerrainBandHalo rows more above and below it
 // or reach the whole model's border; row_widths, if any, has a number for each row of the whole
-// model; datum is given, no surround. A radius of infinity, or less than 24 rows.
+// model; datum is given, no surround. A radius of infinity, or less than kTerrainBandRadius
+// cells.
 OBSCURA_API Status compute_terrain_band(const ElevationModel& model, const TerrainBand& band,
                                         const TerrainSettings& settings,
                                         const TerrainOutputs& outputs, const RunOptions& run = {});

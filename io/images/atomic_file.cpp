@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -20,22 +19,6 @@ namespace {
 Status cannot(const char* verb, const std::string& path, const std::string& reason) {
   return {StatusCode::kInternal, fmt::format("cannot {} {}: {}", verb, path, reason)};
 }
-
-// A write beyond the limit on a file's size shall fail like any other, not end the process.
-class IgnoreFileSizeSignal {
- public:
-  IgnoreFileSizeSignal() {
-    struct sigaction ignore = {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &ignore, &old_);
-  }
-  ~IgnoreFileSizeSignal() { sigaction(SIGXFSZ, &old_, nullptr); }
-  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
-  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
-
- private:
-  struct sigaction old_ = {};
-};
 
 // Permissions of the file to be replaced, or those that a new file would get.
 mode_t wanted_mode(const std::string& path) {

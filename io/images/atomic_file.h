@@ -1,6 +1,7 @@
 #ifndef OBSCURA_IO_IMAGES_ATOMIC_FILE_H_
 #define OBSCURA_IO_IMAGES_ATOMIC_FILE_H_
 
+#include <csignal>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,22 @@
 #include "obscura/status.h"
 
 namespace obscura::tools {
+
+// A write beyond the limit on a file's size shall fail like any other, not end the process.
+class IgnoreFileSizeSignal {
+ public:
+  IgnoreFileSizeSignal() {
+    struct sigaction ignore = {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &ignore, &old_);
+  }
+  ~IgnoreFileSizeSignal() { sigaction(SIGXFSZ, &old_, nullptr); }
+  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
+  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
+
+ private:
+  struct sigaction old_ = {};
+};
 
 // Writes a file so that it is whole or not there: `write` fills the temporary file that it is
 // given, in the same folder, which then takes the name. On failure, a full disk included, the

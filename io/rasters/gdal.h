@@ -8,6 +8,9 @@ namespace obscura::tools {
 // Whether this build reads and writes geographic rasters.
 bool has_gdal();
 
+// Bounds what GDAL keeps of the files that it reads and writes.
+void limit_gdal_memory(double bytes);
+
 // Any raster file that GDAL reads from this machine's disks: GeoTIFF, COG, VRT, ASCII grids and
 // some twenty more. Scale, offset, nodata and masks are applied; rows that come from the south are
 // turned. Rotated rasters are refused, and names of things in a network unless options.network.

@@ -16,6 +16,8 @@ Status absent(const std::string& path) {
 
 bool has_gdal() { return false; }
 
+void limit_gdal_memory(double) {}
+
 Status read_gdal(const std::string& path, const RasterOptions&, Raster*) { return absent(path); }
 
 Status write_geotiff(const std::string& path, const Raster&, const std::vector<std::string>&,

@@ -154,6 +154,8 @@ Status read_rows(const std::string& path, GDALRasterBandH band, const RasterOpti
 
 bool has_gdal() { return true; }
 
+void limit_gdal_memory(double bytes) { GDALSetCacheMax64(static_cast<GIntBig>(bytes)); }
+
 Status read_gdal(const std::string& path, const RasterOptions& options, Raster* raster) {
   const GdalSession session(options.network);
   Dataset dataset;
@@ -175,6 +177,7 @@ Status read_gdal(const std::string& path, const RasterOptions& options, Raster* 
   result.width = window.width;
   result.height = window.height;
   if (!result.row_widths.empty()) {
+    result.whole_row_widths = result.row_widths;
     const auto first = result.row_widths.begin() + window.y;
     result.row_widths = std::vector<double>(first, first + window.height);
   }

@@ -40,6 +40,7 @@ Status check_cells(const std::string& path, const RasterOptions& options, Raster
   if (options.cell_size) {
     raster->cell_width = raster->cell_height = *options.cell_size;
     raster->row_widths.clear();
+    raster->whole_row_widths.clear();
   }
   if (options.z_factor) raster->z_factor = *options.z_factor;
   if (raster->cell_width > 0 && raster->cell_height > 0) return {};

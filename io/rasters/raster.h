@@ -29,6 +29,7 @@ struct Raster {
   std::vector<double> row_widths{};        // metres, by row, where they differ (geographic grids)
   double z_factor = 1;                     // makes metres of heights
   int whole_width = 0, whole_height = 0;   // of the file, where this is a window of it
+  std::vector<double> whole_row_widths{};  // of all its rows
   std::shared_ptr<const Georeference> georeference{};
 };
 

@@ -91,7 +91,7 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
     return invalid_argument(text("radius is ", settings.radius,
                                  "; it must reach the next cell, so be at least ", cell));
   }
-  if (model.datum && !(std::fabs(*model.datum) <= 1e9)) {
+  if (model.datum && !(std::fabs(*model.datum) <= kMostTerrainHeight)) {
     return invalid_argument(text("datum is ", *model.datum, "; it must be in [-1e9, 1e9]"));
   }
   if (Status s = check_tile(model, settings); !s.ok()) return s;
@@ -154,11 +154,12 @@ Status check_terrain_band(const ElevationModel& model, const TerrainBand& band,
     return invalid_argument("surround is given; bands need none, their results are exact");
   }
   if (!model.datum) return invalid_argument("datum is missing; all bands need the same");
+  static_assert(kTerrainBandRadius == kMostMarched + 1);
   double cell = std::min(model.cell_width, model.cell_height);
   for (const double width : model.row_widths) cell = std::min(cell, width);
-  if (std::isfinite(settings.radius) && settings.radius >= cell * (kMostMarched + 1)) {
+  if (std::isfinite(settings.radius) && settings.radius >= cell * kTerrainBandRadius) {
     return unsupported(text("radius is ", settings.radius, "; bands need infinity, or less than ",
-                            cell * (kMostMarched + 1)));
+                            cell * kTerrainBandRadius));
   }
   const bool first = band.up ? band.row + end == band.height : band.row + inner.y == 0;
   const bool last = band.up ? band.row + inner.y == 0 : band.row + end == band.height;

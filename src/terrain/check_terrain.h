@@ -15,8 +15,7 @@ Status check_terrain_band(const ElevationModel& model, const TerrainBand& band,
                           const TerrainSettings& settings, const TerrainOutputs& outputs);
 
 inline bool has_height(const ElevationModel& model, float height) {
-  constexpr float kMost = 1e9f;
-  return std::fabs(height) <= kMost && !(model.nodata && height == *model.nodata);
+  return std::fabs(height) <= kMostTerrainHeight && !(model.nodata && height == *model.nodata);
 }
 
 // Where results are wanted.

@@ -292,13 +292,13 @@ TEST_F(TerrainCommand, ComputesInTilesAndParts) {
   EXPECT_TRUE(std::filesystem::exists(path("parts.tif.tiles/tile-1.npy")));
   std::filesystem::remove(path("parts.tif.tiles/tile-3.npy"));
   expect_success(line + "parts.tif --tile 64 --part 2/2");
-  expect_failure(line + "parts.tif --tile 128", 2, "holds tiles of another run");
+  expect_failure(line + "parts.tif --tile 128", 2, "holds parts of another run");
   expect_success(line + "parts.tif --tile 64 --part 1/2");
   EXPECT_EQ(read_file(path("parts.tif")).size(), read_file(path("tiles.tif")).size());
   EXPECT_TRUE(same(result("parts.tif"), result("tiles.tif"), 0));
   expect_failure(line + "x.tif --radius 8px --tile 64", 2, "--radius must be inf for tiles");
   expect_failure(line + "x.tif --memory 3", 2, "--memory is '3'");
-  expect_failure(line + "x.tif --memory 0.1M", 2, "do not hold a tile");
+  expect_failure(line + "x.tif --memory 0.1M", 2, "do not hold a band of rows");
   expect_failure(line + "x.tif --part 3/2", 2, "--part is '3/2'");
   expect_failure(line + "x.exr --tile 64", 2, "--output as .tif");
   EXPECT_FALSE(std::filesystem::exists(path("x.tif.tiles")));

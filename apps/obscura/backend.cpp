@@ -12,11 +12,15 @@ namespace {
 
 Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings,
                      const LoadedInput& input, const Outputs& outputs, const RunOptions& options,
-                     std::string* ran_on) {
+                     MadeOnce* once, std::string* ran_on) {
   const auto* method = std::get_if<MethodSettings>(&settings);
   if (!method) return unsupported("the method geometric does not run on Vulkan");
-  tools::HeadlessVulkan vulkan;
-  if (Status s = tools::HeadlessVulkan::create({.device = device}, &vulkan); !s.ok()) return s;
+  if (!once->vulkan) {
+    auto made = std::make_shared<tools::HeadlessVulkan>();
+    if (Status s = tools::HeadlessVulkan::create({.device = device}, made.get()); !s.ok()) return s;
+    once->vulkan = std::move(made);
+  }
+  tools::HeadlessVulkan& vulkan = *once->vulkan;
   if (hardware_only && vulkan.info().software) return unsupported("there is no Vulkan hardware");
   tools::HeadlessTimes times;
   if (Status s = vulkan.run(input.field(), *method, outputs, &times); !s.ok()) return s;
@@ -30,7 +34,7 @@ Status run_on_vulkan(int device, bool hardware_only, const AnySettings& settings
 #else
 
 Status run_on_vulkan(int, bool, const AnySettings&, const LoadedInput&, const Outputs&,
-                     const RunOptions&, std::string*) {
+                     const RunOptions&, MadeOnce*, std::string*) {
   return unsupported("this build has no Vulkan (OBSCURA_WITH_VULKAN)");
 }
 
@@ -55,7 +59,7 @@ void BackendOptions::add_to(CLI::App* command) {
 }
 
 Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input,
-                           const Outputs& outputs, const RunOptions& options,
+                           const Outputs& outputs, const RunOptions& options, MadeOnce* once,
                            std::string* ran_on) const {
   if (backend_ != "cpu" && backend_ != "vulkan" && backend_ != "auto") {
     return invalid_argument(
@@ -67,10 +71,11 @@ Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input
   *ran_on = "cpu";
   if (backend_ != "cpu") {
     const bool automatic = backend_ == "auto";
-    const Status s = run_on_vulkan(device_, automatic, settings, input, outputs, options, ran_on);
+    const Status s =
+        run_on_vulkan(device_, automatic, settings, input, outputs, options, once, ran_on);
     if (s.ok() || !automatic || s.code() != StatusCode::kUnsupported) return s;
   }
-  return run_method(settings, input, outputs, options);
+  return run_method(settings, input, outputs, options, once);
 }
 
 Status print_devices() {

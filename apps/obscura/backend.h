@@ -16,7 +16,7 @@ class BackendOptions {
 
   // As run_method(); `ran_on` becomes "cpu" or the device's name.
   Status run(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
-             const RunOptions& options, std::string* ran_on) const;
+             const RunOptions& options, MadeOnce* once, std::string* ran_on) const;
 
  private:
   std::string backend_ = "cpu";

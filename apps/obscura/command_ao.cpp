@@ -7,10 +7,9 @@
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
+#include "apps/obscura/sequence.h"
 #include "fmt/format.h"
 #include "io/images/files.h"
-#include "io/report/progress_bar.h"
-#include "io/report/stopwatch.h"
 
 namespace obscura::app {
 namespace {
@@ -19,6 +18,7 @@ struct AoCommand {
   InputOptions input;
   MethodOptions method;
   BackendOptions backend;
+  SequenceOptions sequence;
   std::string output, outputs = "visibility", json;
   int threads = 0;
   bool keep_channels = false, half = false;
@@ -37,11 +37,89 @@ double mean(const ImageView<const float>& image) {
   return count > 0 ? sum / static_cast<double>(count) : NAN;
 }
 
-Status run_ao(const AoCommand& c, bool quiet) {
-  const tools::Stopwatch watch;
+// What all frames share.
+struct AoShared {
   AnySettings settings;
+  MadeOnce once;
+};
+
+class AoFrame : public CommandFrame {
+ public:
+  AoFrame(const AoCommand& command, AoShared* shared, OutputImages images, FrameFiles files)
+      : c_(command), shared_(*shared), images_(std::move(images)), files_(std::move(files)) {}
+
+  Status read() override {
+    return c_.input.load(files_.input, files_.projection, layer_needs(shared_.settings), c_.threads,
+                         &input_);
+  }
+
+  Status compute(const std::function<bool(double)>& progress) override {
+    const DepthField field = input_.field();
+    const Outputs outputs = images_.allocate(field.visible().width, field.visible().height);
+    RunOptions options{.threads = c_.threads, .progress = progress};
+    if (!c_.json.empty()) options.pass_times = &pass_times_;
+    if (Status s =
+            c_.backend.run(shared_.settings, input_, outputs, options, &shared_.once, &ran_on_);
+        !s.ok()) {
+      return s;
+    }
+    images_.image().occluder = occluder_text(shared_.settings, field);
+    has_mean_ = !outputs.visibility.empty();
+    if (has_mean_) mean_ = mean(outputs.visibility);
+    return {};
+  }
+
+  Status write() override {
+    tools::WriteOptions write;
+    write.half = c_.half;
+    write.made_by = files_.made_by;
+    if (c_.keep_channels) {
+      write.keep_channels_of = files_.input;
+      write.kept_guard_band = input_.field().guard_band;
+    }
+    return tools::write_image(files_.output, images_.image(), write);
+  }
+
+  std::string line() const override {
+    return fmt::format("{}: {}x{}, {}{}, {:.2f} s", files_.output, images_.image().width,
+                       images_.image().height, c_.method.method(),
+                       has_mean_ ? fmt::format(", mean visibility {:.3f}", mean_) : "",
+                       times.sum());
+  }
+
+  tools::Report report() const override {
+    tools::Report report;
+    report.settings = to_json(shared_.settings);
+    report.settings["input"] = files_.input;
+    const std::string& name = c_.method.method();
+    report.settings["method"] = name;
+    report.settings["ran_on"] = ran_on_;
+    if (has_mean_) report.add(name, "mean visibility", mean_);
+    report.add(name, "time to load", 1e3 * times.read, "ms");
+    report.add(name, "time to compute", 1e3 * times.compute, "ms");
+    for (const PassTime& t : pass_times_) {
+      report.add(name, fmt::format("time to compute, {}", t.name), t.milliseconds, "ms");
+    }
+    report.add(name, "time to write", 1e3 * times.write, "ms");
+    return report;
+  }
+
+ private:
+  const AoCommand& c_;
+  AoShared& shared_;
+  OutputImages images_;
+  const FrameFiles files_;
+  LoadedInput input_;
+  std::vector<PassTime> pass_times_;
+  std::string ran_on_;
+  bool has_mean_ = false;
+  double mean_ = 0;
+};
+
+Status run_ao(const AoCommand& c, bool quiet) {
+  AoShared shared;
   OutputImages images;
-  if (Status s = c.method.settings(&settings); !s.ok()) return s;
+  if (Status s = c.method.settings(&shared.settings); !s.ok()) return s;
   if (Status s = OutputImages::parse(c.outputs, &images); !s.ok()) return s;
   if (Status s = images.check_file(c.output); !s.ok()) return s;
   if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
@@ -49,56 +127,9 @@ Status run_ao(const AoCommand& c, bool quiet) {
       (tools::file_ending(c.output) != ".exr" || tools::file_ending(c.input.path()) != ".exr")) {
     return invalid_argument("--keep-channels needs an EXR file as input and as output");
   }
-
-  LoadedInput input;
-  if (Status s = c.input.load(layer_needs(settings), c.threads, &input); !s.ok()) return s;
-  const double loaded = watch.seconds();
-
-  const DepthField field = input.field();
-  const Outputs outputs = images.allocate(field.visible().width, field.visible().height);
-  tools::ProgressBar bar(c.method.method(), !quiet);
-  RunOptions options{.threads = c.threads};
-  options.progress = [&bar](double share) { return bar(share); };
-  std::vector<PassTime> pass_times;
-  if (!c.json.empty()) options.pass_times = &pass_times;
-  std::string ran_on;
-  if (Status s = c.backend.run(settings, input, outputs, options, &ran_on); !s.ok()) {
-    return s;
-  }
-  const double computed = watch.seconds();
-
-  images.image().occluder = occluder_text(settings, field);
-  tools::WriteOptions write;
-  write.half = c.half;
-  if (c.keep_channels) {
-    write.keep_channels_of = c.input.path();
-    write.kept_guard_band = field.guard_band;
-  }
-  if (Status s = tools::write_image(c.output, images.image(), write); !s.ok()) return s;
-  const double total = watch.seconds();
-
-  tools::Report report;
-  report.settings = to_json(settings);
-  report.settings["input"] = c.input.path();
-  report.settings["method"] = c.method.method();
-  report.settings["ran_on"] = ran_on;
-  const std::string& name = c.method.method();
-  if (!outputs.visibility.empty()) report.add(name, "mean visibility", mean(outputs.visibility));
-  report.add(name, "time to load", 1e3 * loaded, "ms");
-  report.add(name, "time to compute", 1e3 * (computed - loaded), "ms");
-  for (const PassTime& t : pass_times) {
-    report.add(name, fmt::format("time to compute, {}", t.name), t.milliseconds, "ms");
-  }
-  report.add(name, "time to write", 1e3 * (total - computed), "ms");
-  if (!quiet && c.json != "-") {
-    fmt::print("{}: {}x{}, {}{}, {:.2f} s\n", c.output, field.visible().width,
-               field.visible().height, name,
-               outputs.visibility.empty()
-                   ? ""
-                   : fmt::format(", mean visibility {:.3f}", mean(outputs.visibility)),
-               total);
-  }
-  return write_json(report, c.json);
+  return c.sequence.run(c.input.path(), c.output, quiet, c.json, [&](const FrameFiles& files) {
+    return std::make_unique<AoFrame>(c, &shared, images, files);
+  });
 }
 
 }  // namespace
@@ -128,6 +159,7 @@ void add_ao(App& app) {
   command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
   command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
       ->type_name("FILE");
+  c->sequence.add_to(command, true);
 }
 
 }  // namespace obscura::app

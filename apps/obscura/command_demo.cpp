@@ -39,9 +39,10 @@ Status run_timed(const std::string& label, const AnySettings& settings, const Lo
   run->image.add("visibility");
   tools::ProgressBar bar(label, !quiet);
   const tools::Stopwatch watch;
-  const Status status =
-      run_method(settings, input, {.visibility = run->image.view(0)},
-                 {.threads = threads, .progress = [&bar](double share) { return bar(share); }});
+  MadeOnce once;
+  const Status status = run_method(
+      settings, input, {.visibility = run->image.view(0)},
+      {.threads = threads, .progress = [&bar](double share) { return bar(share); }}, &once);
   run->seconds = watch.seconds();
   return status;
 }

@@ -5,34 +5,15 @@
 #include <numbers>
 
 #include "apps/obscura/app.h"
-#include "apps/obscura/input.h"
-#include "apps/obscura/methods.h"
-#include "apps/obscura/output.h"
+#include "apps/obscura/light_frame.h"
 #include "fmt/format.h"
 #include "io/environments/convolution_cache.h"
 #include "io/images/files.h"
-#include "io/pictures/display.h"
 #include "io/report/progress_bar.h"
 #include "io/report/stopwatch.h"
-#include "obscura/importance.h"
-#include "obscura/lighting.h"
-#include "scene/light/background.h"
-#include "scene/light/comparators.h"
 
 namespace obscura::app {
 namespace {
-
-struct LightCommand {
-  InputOptions input;
-  MethodOptions method;
-  OptionTable lighting;
-  std::string environment, output, json;
-  std::string albedo = "1,1,1", sun_direction, sun_irradiance = "3,3,3";
-  double sun_radius_deg = 0.27, heading_deg = 0, pitch_deg = 0, exposure = 0;
-  std::string cones = "cosine", comparator = "none";
-  bool no_background = false, no_cache = false, half = false;
-  int threads = 0, supersample = 1;
-};
 
 Status parse_three(const char* option, const std::string& text, double min, float* values) {
   std::size_t at = 0;
@@ -61,104 +42,6 @@ Status one_of(const char* option, const std::string& value,
   return invalid_argument(fmt::format("{} is '{}'; it must be one of {}", option, value, list));
 }
 
-// What the lighting reads, at the visible size.
-struct Buffers {
-  explicit Buffers(const DepthField& f) : image(f.visible().width, f.visible().height) {
-    for (const char* name : {"visibility", "angle", "nx", "ny", "nz", "bx", "by", "bz"}) {
-      image.add(name);
-    }
-    visibility = image.view(0), angle = image.view(1);
-    normal = {image.view(2), image.view(3), image.view(4)};
-    bent = {image.view(5), image.view(6), image.view(7)};
-  }
-  tools::Image image;
-  ImageView<float> visibility, angle;
-  VectorView<float> normal, bent;
-};
-
-Status estimate(const LightCommand& c, const AnySettings& method, const LoadedInput& input,
-                LightingTechnique technique, Buffers* b, const RunOptions& options) {
-  const tools::DepthInput& g = input.depth();
-  const DepthField field = input.field();
-  Outputs outputs;
-  outputs.visibility = b->visibility;
-  const bool bent = technique != LightingTechnique::kAmbientOcclusion;
-  if (bent && c.cones == "cosine") {
-    outputs.cosine_integral = b->bent;
-  } else if (bent) {
-    outputs.bent_normal = b->bent;
-    if (technique == LightingTechnique::kBentCone) outputs.cone_angle = b->angle;
-  }
-  const bool library = std::holds_alternative<MethodSettings>(method);
-  if (library) outputs.normal = b->normal;
-  if (Status s = run_method(method, input, outputs, options); !s.ok()) {
-    if (s.code() != StatusCode::kUnsupported || !bent || c.cones != "cosine") return s;
-    return {s.code(), fmt::format("{}; --cones mean does with bent-normal", s.message())};
-  }
-  if (!library) {
-    for (int y = 0; y < field.visible().height; ++y) {
-      for (int x = 0; x < field.visible().width; ++x) {
-        const std::size_t i = std::size_t(y + g.guard_band.top) * g.width + x + g.guard_band.left;
-        b->normal.x(x, y) = g.normal_x[i];
-        b->normal.y(x, y) = g.normal_y[i];
-        b->normal.z(x, y) = g.normal_z[i];
-      }
-    }
-  }
-  if (bent && c.cones == "cosine") {
-    return cones_from_cosine_integral(b->visibility, b->bent, b->bent, b->angle, options);
-  }
-  return {};
-}
-
-// Light by what cones are compared with; the sun is the convolved light's.
-Status light_by_comparator(const LightCommand& c, AnySettings method, const LoadedInput& input,
-                           const Environment& map, const PreconvolvedEnvironment& lights,
-                           const std::array<float, 9>& m, tools::Image* image,
-                           const RunOptions& options) {
-  Environment environment;
-  if (Status s = map.with_sun(lights.sun(), &environment); !s.ok()) return s;
-  const VectorView<float> out{image->view(0), image->view(1), image->view(2)};
-  auto* library = std::get_if<MethodSettings>(&method);
-  auto* hemisphere = library ? std::get_if<HemisphereSettings>(library) : nullptr;
-  auto* reference = library ? std::get_if<ReferenceSettings>(library) : nullptr;
-  if (c.comparator == "importance" && hemisphere) {
-    ImportanceSettings settings{.falloff = hemisphere->falloff,
-                                .occluder = hemisphere->occluder,
-                                .samples = hemisphere->samples,
-                                .steps = std::max(hemisphere->steps, 1),
-                                .interleave = hemisphere->interleave,
-                                .blur = hemisphere->blur,
-                                .seed = hemisphere->seed,
-                                .world_from_eye = m};
-    return light_by_importance(input.field(), environment, settings, out, options);
-  }
-  if (c.comparator == "samples" && hemisphere) {
-    hemisphere->radiance = tools::light_of_samples(lights, hemisphere->samples, m);
-  } else if (c.comparator == "samples" && reference) {
-    reference->radiance = tools::light_of_rays(environment, m);
-  } else {
-    return invalid_argument(
-        fmt::format("--comparator {} needs --method hemisphere{}, not {}", c.comparator,
-                    c.comparator == "samples" ? " or ray-traced" : "", c.method.method()));
-  }
-  Outputs outputs;
-  outputs.radiance = out;
-  return run_method(method, input, outputs, options);
-}
-
-// Light by a technique from what the estimator has left in the buffers.
-Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment& lights,
-                          const LightingSettings& settings, tools::Image* image,
-                          const RunOptions& options) {
-  LightingInputs inputs;
-  inputs.visibility = buffers.visibility;
-  inputs.normal = buffers.normal;
-  inputs.bent_normal = buffers.bent;
-  inputs.cone_angle = buffers.angle;
-  return light(inputs, lights, settings, {image->view(0), image->view(1), image->view(2)}, options);
-}
-
 Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
   if (c.sun_direction.empty()) return {};
   Sun sun;
@@ -179,116 +62,51 @@ Status with_sun_of(const LightCommand& c, PreconvolvedEnvironment* lights) {
   return {};
 }
 
-Status run_light(const LightCommand& c, bool quiet) {
+// The environment, convolved, and its sun.
+Status prepare_lights(const LightCommand& c, bool quiet, LightShared* shared) {
   const tools::Stopwatch watch;
-  AnySettings method;
-  LightingSettings settings;
-  float albedo[3];
-  if (Status s = c.method.settings(&method); !s.ok()) return s;
-  if (Status s = c.lighting.read(&settings); !s.ok()) return s;
-  if (Status s = parse_three("--albedo", c.albedo, 0, albedo); !s.ok()) return s;
-  if (Status s = one_of("--cones", c.cones, {"cosine", "mean"}); !s.ok()) return s;
-  if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
-    return s;
-  }
-  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
-  tools::EnvironmentSource source;
-  if (Status s = tools::open_environment(c.environment, &source); !s.ok()) return s;
-
-  const auto executor = make_executor(c.threads);
-  PreconvolvedEnvironment lights;
+  if (Status s = tools::open_environment(c.environment, &shared->source); !s.ok()) return s;
+  shared->executor = make_executor(c.threads);
   EnvironmentRepairs repairs;
-  bool from_cache = false;
   {
     tools::ProgressBar bar("environment", !quiet);
     RunOptions options;
-    options.executor = executor.get();
+    options.executor = shared->executor.get();
     options.progress = [&bar](double share) { return bar(share); };
     tools::ConvolutionCache cache;
     cache.enabled = !c.no_cache;
-    if (Status s = tools::preconvolve(source, {}, cache, &lights, &repairs, &from_cache, options);
+    if (Status s = tools::preconvolve(shared->source, {}, cache, &shared->lights, &repairs,
+                                      &shared->from_cache, options);
         !s.ok()) {
       return s;
     }
   }
   if (!quiet && repairs.any()) {
-    fmt::print(stderr, "obscura: {}: {}\n", source.name, tools::describe(repairs));
+    fmt::print(stderr, "obscura: {}: {}\n", shared->source.name, tools::describe(repairs));
   }
-  if (Status s = with_sun_of(c, &lights); !s.ok()) return s;
-  const double convolved = watch.seconds();
+  if (Status s = with_sun_of(c, &shared->lights); !s.ok()) return s;
+  shared->convolved = watch.seconds();
+  if (c.comparator == "none" && c.no_background) return {};
+  EnvironmentRepairs same;
+  return tools::load_environment(shared->source, &shared->environment, &same,
+                                 {.executor = shared->executor.get()});
+}
 
-  LoadedInput input;
-  if (Status s = c.input.load(layer_needs(method), c.threads, &input); !s.ok()) return s;
-  const double loaded = watch.seconds();
-  constexpr double kRadians = std::numbers::pi / 180;
-  settings.world_from_eye =
-      tools::world_from_eye(input.rendering.scene ? input.rendering.view.frame() : tools::Frame(),
-                            c.heading_deg * kRadians, c.pitch_deg * kRadians);
-  Environment environment;
-  const bool compared = c.comparator != "none";
-  if (compared || !c.no_background) {
-    EnvironmentRepairs same;
-    if (Status s =
-            tools::load_environment(source, &environment, &same, {.executor = executor.get()});
-        !s.ok()) {
-      return s;
-    }
+Status run_light(const LightCommand& c, bool quiet) {
+  LightShared shared;
+  if (Status s = c.method.settings(&shared.method); !s.ok()) return s;
+  if (Status s = c.lighting.read(&shared.lighting); !s.ok()) return s;
+  if (Status s = parse_three("--albedo", c.albedo, 0, shared.albedo); !s.ok()) return s;
+  if (Status s = one_of("--cones", c.cones, {"cosine", "mean"}); !s.ok()) return s;
+  if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
+    return s;
   }
-
-  Buffers buffers(input.field());
-  const int w = buffers.image.width, h = buffers.image.height;
-  if (w % c.supersample != 0 || h % c.supersample != 0) {
-    return invalid_argument(fmt::format(
-        "--supersample is {}; the visible size, {}x{}, is no multiple of it", c.supersample, w, h));
-  }
-  tools::Image image(w, h);
-  for (const char* name : {"R", "G", "B"}) image.add(name);
-  tools::ProgressBar bar(c.method.method(), !quiet);
-  RunOptions options;
-  options.executor = executor.get();
-  options.progress = [&bar](double share) { return bar(share); };
-  const double prepared = watch.seconds();
-  Status status = compared ? light_by_comparator(c, method, input, environment, lights,
-                                                 settings.world_from_eye, &image, options)
-                           : estimate(c, method, input, settings.technique, &buffers, options);
-  if (!status.ok()) return status;
-  const double estimated = watch.seconds();
-  RunOptions with_threads;
-  with_threads.executor = executor.get();
-  if (!compared) status = light_by_technique(buffers, lights, settings, &image, with_threads);
-  if (!status.ok()) return status;
-  for (int k = 0; k < 3; ++k) {
-    for (float& v : image.channels[k].values) v *= albedo[k];
-  }
-  const double lit = watch.seconds();
-
-  tools::fill_background(input.depth(), settings.world_from_eye,
-                         c.no_background ? nullptr : &environment, &image);
-  if (c.supersample > 1) image = tools::box_filtered(image, c.supersample);
-  if (tools::file_ending(c.output) == ".png") tools::to_srgb(c.exposure, &image);
-  tools::WriteOptions write;
-  write.half = c.half;
-  if (Status s = tools::write_image(c.output, image, write); !s.ok()) return s;
-
-  tools::Report report;
-  report.settings = to_json(method);
-  report.settings["input"] = c.input.path();
-  report.settings["method"] = c.method.method();
-  report.settings["environment"] = source.name;
-  visit_fields(settings, [&](const auto& value, const Field& field) {
-    report.settings[field.name] = write_setting(value);
+  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
+  if (Status s = c.sequence.check(c.input.path(), c.output); !s.ok()) return s;
+  if (Status s = prepare_lights(c, quiet, &shared); !s.ok()) return s;
+  return c.sequence.run(c.input.path(), c.output, quiet, c.json, [&](const FrameFiles& files) {
+    return make_light_frame(c, &shared, files);
   });
-  const std::string name = compared ? c.comparator : enum_name(settings.technique);
-  report.add(name, from_cache ? "time to read the convolution" : "time to convolve",
-             1e3 * convolved, "ms");
-  report.add(name, "time to load", 1e3 * (loaded - convolved), "ms");
-  report.add(name, "time to compute", 1e3 * (estimated - prepared), "ms");
-  report.add(name, "time to light", 1e3 * (lit - estimated), "ms");
-  if (!quiet && c.json != "-") {
-    fmt::print("{}: {}x{}, {}, {} of {}{}, {:.2f} s\n", c.output, image.width, image.height, name,
-               c.method.method(), source.name, from_cache ? " (cached)" : "", watch.seconds());
-  }
-  return write_json(report, c.json);
 }
 
 }  // namespace
@@ -359,6 +177,7 @@ void add_light(App& app) {
   command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
   command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
       ->type_name("FILE");
+  c->sequence.add_to(command, true);
 }
 
 }  // namespace obscura::app

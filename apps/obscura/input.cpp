@@ -45,19 +45,26 @@ void InputOptions::add_to(CLI::App* command) {
   table_.add_to(command, "Input");
 }
 
-Status InputOptions::load(const LayerNeeds& needs, int threads, LoadedInput* input) const {
-  if (tools::is_scene(path_) || tools::is_mesh(path_)) return render(needs, threads, input);
+Status InputOptions::load(const std::string& path, const tools::ProjectionMatrix* projection,
+                          const LayerNeeds& needs, int threads, LoadedInput* input) const {
+  if (tools::is_scene(path) || tools::is_mesh(path)) {
+    if (!projection) return render(path, needs, threads, input);
+    return invalid_argument(
+        fmt::format("--cameras holds the cameras of depth images; {} is none", path));
+  }
   if (Status s = table_.refuse_others(kImages, "a depth image"); !s.ok()) return s;
   tools::DepthFileOptions options;
   if (Status s = table_.read(&options); !s.ok()) return s;
   options.layers = needs.given ? static_cast<int>(Occluder::kLayersRange.max) : needs.layers;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
-  return tools::load_depth_input(path_, options, &input->rendering.gbuffer);
+  if (projection) options.projection_matrix = *projection;
+  return tools::load_depth_input(path, options, &input->rendering.gbuffer);
 }
 
-Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* input) const {
-  const bool scene = tools::is_scene(path_);
-  if (Status s = table_.refuse_others(scene ? kScenes : kMeshes, path_); !s.ok()) return s;
+Status InputOptions::render(const std::string& path, const LayerNeeds& needs, int threads,
+                            LoadedInput* input) const {
+  const bool scene = tools::is_scene(path);
+  if (Status s = table_.refuse_others(scene ? kScenes : kMeshes, path); !s.ok()) return s;
   RenderedNormals normals;
   if (Status s = table_.read(&normals); !s.ok()) return s;
   const std::string& use = normals.normals;
@@ -72,14 +79,14 @@ Status InputOptions::render(const LayerNeeds& needs, int threads, LoadedInput* i
 
   const auto executor = make_executor(threads);
   tools::Rendering* rendering = &input->rendering;
-  const Status s = scene ? tools::load_scene(path_, options.view, *executor, rendering)
-                         : tools::load_mesh(path_, options, *executor, rendering);
+  const Status s = scene ? tools::load_scene(path, options.view, *executor, rendering)
+                         : tools::load_mesh(path, options, *executor, rendering);
   if (!s.ok()) return s;
   for (const std::string& note : rendering->scene->mesh().notes) {
     fmt::print(stderr, "obscura: note: {}\n", note);
   }
   tools::DepthInput& gbuffer = rendering->gbuffer;
-  gbuffer.name = path_;
+  gbuffer.name = path;
   if (use == "none") input->normal_use = NormalUse::kNone;
   if (use == "depth") {
     for (auto* n : {&gbuffer.normal_x, &gbuffer.normal_y, &gbuffer.normal_z}) n->clear();

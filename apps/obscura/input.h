@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/obscura/option_table.h"
+#include "io/sequences/camera_list.h"
 #include "scene/scenes/load_scene.h"
 
 namespace obscura::app {
@@ -32,10 +33,16 @@ class InputOptions {
   const std::string& path() const { return path_; }
 
   // Loads a file or renders a scene or mesh on `threads` threads.
-  Status load(const LayerNeeds& needs, int threads, LoadedInput* input) const;
+  Status load(const LayerNeeds& needs, int threads, LoadedInput* input) const {
+    return load(path_, nullptr, needs, threads, input);
+  }
+  // The same for a file of a sequence; `projection`, its camera, may be null.
+  Status load(const std::string& path, const tools::ProjectionMatrix* projection,
+              const LayerNeeds& needs, int threads, LoadedInput* input) const;
 
  private:
-  Status render(const LayerNeeds& needs, int threads, LoadedInput* input) const;
+  Status render(const std::string& path, const LayerNeeds& needs, int threads,
+                LoadedInput* input) const;
 
   std::string path_;
   OptionTable table_;

@@ -109,7 +109,7 @@ std::string occluder_text(const AnySettings& settings, const DepthField& field) 
 }
 
 Status run_method(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
-                  const RunOptions& options) {
+                  const RunOptions& options, MadeOnce* once) {
   if (const auto* geometric = std::get_if<tools::GeometricSettings>(&settings)) {
     if (!input.rendering.scene) {
       return invalid_argument(fmt::format(
@@ -117,10 +117,14 @@ Status run_method(const AnySettings& settings, const LoadedInput& input, const O
     }
     return tools::trace_geometric(input.rendering, *geometric, outputs, options);
   }
-  Estimator estimator;
-  Status status = Estimator::create(std::get<MethodSettings>(settings), input.depth().width,
-                                    input.depth().height, &estimator);
-  if (status.ok()) status = estimator.run(input.field(), outputs, options);
+  const int width = input.depth().width, height = input.depth().height;
+  Status status;
+  if (once->width != width || once->height != height) {
+    status = Estimator::create(std::get<MethodSettings>(settings), width, height, &once->estimator);
+    once->width = status.ok() ? width : 0;
+    once->height = status.ok() ? height : 0;
+  }
+  if (status.ok()) status = once->estimator.run(input.field(), outputs, options);
   // The library knows no file names.
   if (status.code() == StatusCode::kInvalidInput) {
     return {status.code(), fmt::format("{}: {}", input.depth().name, status.message())};

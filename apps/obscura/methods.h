@@ -1,6 +1,7 @@
 #ifndef OBSCURA_APPS_OBSCURA_METHODS_H_
 #define OBSCURA_APPS_OBSCURA_METHODS_H_
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "io/report/json.h"
 #include "obscura/estimator.h"
 #include "scene/truth/geometric.h"
+
+namespace obscura::tools {
+class HeadlessVulkan;
+}  // namespace obscura::tools
 
 namespace obscura::app {
 
@@ -56,9 +61,16 @@ std::string occluder_text(const AnySettings& settings, const DepthField& field);
 // What the method reads beside depth and normals.
 LayerNeeds layer_needs(const AnySettings& settings);
 
-// Runs any method on a loaded input.
+// What is made for the first frame of a sequence and serves those of equal size after it.
+struct MadeOnce {
+  Estimator estimator;
+  int width = 0, height = 0;  // of the estimator; 0: not made yet
+  std::shared_ptr<tools::HeadlessVulkan> vulkan;
+};
+
+// Runs any method on a loaded input. `once` is for the same settings in every call.
 Status run_method(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
-                  const RunOptions& options);
+                  const RunOptions& options, MadeOnce* once);
 
 // Settings as JSON, field by field.
 tools::Json to_json(const AnySettings& settings);

@@ -24,6 +24,7 @@ class OutputImages {
   Outputs allocate(int width, int height);
 
   tools::Image& image() { return image_; }
+  const tools::Image& image() const { return image_; }
 
   static std::string all_names();
 

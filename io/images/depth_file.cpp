@@ -77,7 +77,8 @@ Status must_be_positive(const char* option, double v) {
 }
 
 bool gives_camera(const DepthFileOptions& o) {
-  return o.fov_y || o.ortho_height || o.focal_length || o.sensor_height || !o.projection.empty();
+  return o.fov_y || o.ortho_height || o.focal_length || o.sensor_height || !o.projection.empty() ||
+         o.projection_matrix;
 }
 
 // The camera that the options say.
@@ -85,7 +86,9 @@ Status set_camera(const std::string& path, const DepthFileOptions& o, DepthInput
   const GuardBand& g = input->guard_band;
   const int w = input->width - g.left - g.right, h = input->height - g.top - g.bottom;
   const bool lens = o.focal_length || o.sensor_height;
-  const int given = o.fov_y.has_value() + o.ortho_height.has_value() + lens + !o.projection.empty();
+  const bool projection = o.projection_matrix || !o.projection.empty();
+  const int given = o.fov_y.has_value() + o.ortho_height.has_value() + lens +
+                    o.projection_matrix.has_value() + !o.projection.empty();
   if (given > 1) {
     return invalid_argument(
         "fov-y, ortho-height, focal-length with sensor-height, and projection exclude each other");
@@ -107,11 +110,16 @@ Status set_camera(const std::string& path, const DepthFileOptions& o, DepthInput
     if (!positive(*o.sensor_height)) return must_be_positive("sensor-height", *o.sensor_height);
     input->camera = Camera::perspective_sensor(static_cast<float>(*o.focal_length),
                                                static_cast<float>(*o.sensor_height), w, h, g);
-  } else if (!o.projection.empty()) {
+  } else if (projection) {
     double matrix[16];
-    if (Status s = read_projection(o.projection, matrix); !s.ok()) return s;
+    const std::string& source = o.projection_matrix ? path : o.projection;
+    if (o.projection_matrix) {
+      std::copy(o.projection_matrix->begin(), o.projection_matrix->end(), matrix);
+    } else if (Status s = read_projection(o.projection, matrix); !s.ok()) {
+      return s;
+    }
     if (Status s = Camera::from_projection(matrix, w, h, g, &input->camera); !s.ok()) {
-      return {s.code(), fmt::format("{}: {}", o.projection, s.message())};
+      return {s.code(), fmt::format("{}: {}", source, s.message())};
     }
     const bool ndc = o.depth_kind == DepthKind::kNdc || o.depth_kind == DepthKind::kNdcReversed;
     if (ndc && (!o.near || !o.far)) {
@@ -121,7 +129,7 @@ Status set_camera(const std::string& path, const DepthFileOptions& o, DepthInput
         return invalid_input(
             fmt::format("{}: its planes, near {:.4g} and far {:.4g}, do not suit depth-kind {}; "
                         "choose the other kind, or give near and far",
-                        o.projection, near, far, enum_name(o.depth_kind)));
+                        source, near, far, enum_name(o.depth_kind)));
       }
       if (!o.near) input->near_plane = static_cast<float>(near);
       if (!o.far) input->far_plane = static_cast<float>(far);

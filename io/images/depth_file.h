@@ -1,6 +1,7 @@
 #ifndef OBSCURA_IO_IMAGES_DEPTH_FILE_H_
 #define OBSCURA_IO_IMAGES_DEPTH_FILE_H_
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -52,6 +53,9 @@ struct DepthFileOptions {
   // As many depth layers as an occluder asks for are read where the EXR file has them: layerK.Z and
   // layerK.ZBack with K from 1. Not a user's setting.
   int layers = 0;
+  // The 16 numbers of `projection`, where they do not come from a file of their own. Not a user's
+  // setting.
+  std::optional<std::array<double, 16>> projection_matrix{};
 };
 template <FieldsOf<DepthFileOptions> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {

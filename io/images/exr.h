@@ -25,6 +25,8 @@ struct PixelWindow {
 
 // Holds Image::occluder.
 inline constexpr const char* kOccluderAttribute = "obscuraOccluder";
+// Holds ExrWriteOptions::made_by.
+inline constexpr const char* kMadeByAttribute = "obscuraMadeBy";
 
 // The header of an OpenEXR file (its first part).
 struct ExrHeader {
@@ -40,6 +42,7 @@ struct ExrHeader {
   std::vector<Channel> channels;
   std::optional<Matrix> world_to_camera, world_to_ndc;
   std::string occluder;                 // of the attribute kOccluderAttribute
+  std::string made_by;                  // of the attribute kMadeByAttribute
   std::vector<std::string> attributes;  // names of all others
   std::shared_ptr<const void> native;   // OpenEXR's own, for write_exr to pass on
 
@@ -60,6 +63,8 @@ Status read_exr(const std::string& path, const std::vector<std::string>& wanted,
 
 struct ExrWriteOptions {
   bool half = false;  // 16-bit floats
+  // The command that made the image, for a sequence to know its frames again; empty: not said.
+  std::string made_by{};
   // An EXR file whose other channels, in their own types, and attributes go along. The image then
   // lies on that file's display window, or on its whole window less a guard band where that is
   // given; windows given below are not used.

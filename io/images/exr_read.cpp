@@ -60,6 +60,8 @@ void fill_header(const Imf::Header& native, ExrHeader* header) {
   header->world_to_ndc = matrix("worldToNDC");
   const auto* occluder = native.findTypedAttribute<Imf::StringAttribute>(kOccluderAttribute);
   header->occluder = occluder ? occluder->value() : "";
+  const auto* made_by = native.findTypedAttribute<Imf::StringAttribute>(kMadeByAttribute);
+  header->made_by = made_by ? made_by->value() : "";
   header->attributes.clear();
   for (auto it = native.begin(); it != native.end(); ++it) header->attributes.push_back(it.name());
   header->native = std::make_shared<Imf::Header>(native);

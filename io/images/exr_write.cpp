@@ -180,6 +180,9 @@ Status write_exr(const std::string& path, const Image& image, const ExrWriteOpti
   if (!image.occluder.empty()) {
     header.insert(kOccluderAttribute, Imf::StringAttribute(image.occluder));
   }
+  if (!options.made_by.empty()) {
+    header.insert(kMadeByAttribute, Imf::StringAttribute(options.made_by));
+  }
   // Every reader takes ZIP, by blocks of 16 rows, which several threads share.
   header.compression() = Imf::ZIP_COMPRESSION;
 

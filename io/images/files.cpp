@@ -50,6 +50,7 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
     return write_atomically(path, [&](const std::string& temporary) {
       ExrWriteOptions exr;
       exr.half = options.half;
+      exr.made_by = options.made_by;
       exr.keep_channels_of = options.keep_channels_of;
       exr.kept_guard_band = options.kept_guard_band;
       return write_exr(temporary, image, exr);

@@ -20,6 +20,8 @@ Status read_image(const std::string& path, Image* image);
 struct WriteOptions {
   bool half = false;  // EXR: 16-bit floats
   int png_bits = 8;   // PNG: 8 or 16 per channel
+  // EXR: the command that made the image; empty: not said.
+  std::string made_by{};
   // EXR: the path of an EXR file whose other channels and attributes are copied along. The image
   // has the size of its display window, or is what is visible of it with this guard band, that of
   // the DepthInput loaded from it.

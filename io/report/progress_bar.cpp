@@ -21,8 +21,11 @@ ProgressBar::ProgressBar(std::string label, bool enabled)
       start_(Clock::now()),
       last_(start_) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { erase(); }
+
+void ProgressBar::erase() {
   if (drawn_) std::fputs("\r\033[K", stderr);
+  drawn_ = false;
 }
 
 std::string ProgressBar::line(const std::string& label, double share, double seconds) {

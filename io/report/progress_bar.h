@@ -18,6 +18,9 @@ class ProgressBar {
   // Call with the share done, in [0, 1]. Returns false once the user has pressed Ctrl-C.
   bool operator()(double share);
 
+  // Takes the line away, for other text to be printed.
+  void erase();
+
   // "[#####     ]  50 %, 12 s left": what a line shows (for tests).
   static std::string line(const std::string& label, double share, double seconds);
 

@@ -27,11 +27,12 @@
 namespace obscura {
 
 // The land around a model that is a tile of a larger one, in cells so coarse that they are small
-// against their distance; coarsen_terrain makes them.
+// against their distance; coarsen_terrain makes them. Without heights: only where the tile lies, so
+// that its lines are those of the larger model.
 struct TerrainSurround {
-  ImageView<const float> heights;  // of the larger model; NaN: no data. Empty: no surround
+  ImageView<const float> heights;  // of the larger model; NaN: no data
   int factor = 1;                  // [1, 65536] cells of the model along a coarse one
-  // Cells of the larger model, and from its first cell to that of the tile.
+  // Cells of the larger model, 0: none, and from its first cell to that of the tile.
   std::int64_t width = 0, height = 0, column = 0, row = 0;
 };
 
@@ -52,12 +53,15 @@ struct ElevationModel {
   std::optional<float> nodata{};           // cells of this value have no data
   // None, or one per row in place of cell_width: cells of a geographic grid, which narrow towards
   // the poles. Lines are then those of the row that they end in, to 1 % of the width: the model is
-  // swept once for each band of rows in which widths differ by less than 2 %.
+  // swept once for each band of rows in which widths differ by less than 2 %. A tile may have those
+  // of the larger model's rows.
   std::span<const double> row_widths{};
   // For tiles. Where results are wanted: the rest of the heights is a halo around them, that hides
   // the sky only. Of width 0: everywhere.
   TerrainWindow inner{};
-  // What lies beyond the heights and hides the sky, too. Needs a radius of infinity.
+  // What lies beyond the heights and hides the sky, too. Its heights need a radius of infinity.
+  // With a finite one, a halo one cell wider than the radius and the same datum, a tile has the
+  // bits of the larger model.
   TerrainSurround surround{};
   // Taken from heights before they are rounded; none: the first height. For parts of one model that
   // are to have the same bits.

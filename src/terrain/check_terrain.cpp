@@ -23,6 +23,35 @@ Status check_size(const char* name, const ImageView<float>& view, const TerrainW
                             "x", inner.height));
 }
 
+Status check_surround(const ElevationModel& model, const TerrainSettings& settings) {
+  const TerrainSurround& s = model.surround;
+  const auto& heights = model.heights;
+  if (s.heights.empty() && s.width == 0 && s.height == 0) return {};
+  if (!s.heights.empty()) {
+    if (std::isfinite(settings.radius)) {
+      return invalid_argument(
+          "surround.heights need a radius of infinity; a halo as wide as the radius makes finite "
+          "ones exact");
+    }
+    if (s.factor < 1 || s.factor > 65536) {
+      return invalid_argument(text("surround.factor is ", s.factor, "; it must be in [1, 65536]"));
+    }
+    if (s.heights.width != (s.width + s.factor - 1) / s.factor ||
+        s.heights.height != (s.height + s.factor - 1) / s.factor) {
+      return invalid_argument(text("surround.heights are ", s.heights.width, "x", s.heights.height,
+                                   "; ", s.width, "x", s.height, " cells by a factor of ", s.factor,
+                                   " need another size"));
+    }
+  }
+  if (s.column < 0 || s.row < 0 || s.column + heights.width > s.width ||
+      s.row + heights.height > s.height || s.width > kMostAround || s.height > kMostAround) {
+    return invalid_argument(text("surround is ", s.width, "x", s.height,
+                                 " cells and the model lies at ", s.column, ",", s.row,
+                                 "; it must lie within, and sides be at most ", kMostAround));
+  }
+  return {};
+}
+
 Status check_tile(const ElevationModel& model, const TerrainSettings& settings) {
   const TerrainWindow inner = inner_of(model);
   const auto& heights = model.heights;
@@ -32,29 +61,7 @@ Status check_tile(const ElevationModel& model, const TerrainSettings& settings) 
                                  inner.y, "; it must lie in the model, ", heights.width, "x",
                                  heights.height));
   }
-  const TerrainSurround& s = model.surround;
-  if (s.heights.empty()) return {};
-  if (std::isfinite(settings.radius)) {
-    return invalid_argument(
-        "surround needs a radius of infinity; a halo as wide as the radius "
-        "makes finite ones exact");
-  }
-  if (s.factor < 1 || s.factor > 65536) {
-    return invalid_argument(text("surround.factor is ", s.factor, "; it must be in [1, 65536]"));
-  }
-  if (s.heights.width != (s.width + s.factor - 1) / s.factor ||
-      s.heights.height != (s.height + s.factor - 1) / s.factor) {
-    return invalid_argument(text("surround.heights are ", s.heights.width, "x", s.heights.height,
-                                 "; ", s.width, "x", s.height, " cells by a factor of ", s.factor,
-                                 " need another size"));
-  }
-  if (s.column < 0 || s.row < 0 || s.column + heights.width > s.width ||
-      s.row + heights.height > s.height || s.width > kMostAround || s.height > kMostAround) {
-    return invalid_argument(text("surround is ", s.width, "x", s.height,
-                                 " cells and the model lies at ", s.column, ",", s.row,
-                                 "; it must lie within, and sides be at most ", kMostAround));
-  }
-  return {};
+  return check_surround(model, settings);
 }
 
 }  // namespace
@@ -76,8 +83,11 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   }
   if (Status s = check_side("cell_width", model.cell_width); !s.ok()) return s;
   if (Status s = check_side("cell_height", model.cell_height); !s.ok()) return s;
-  if (!model.row_widths.empty() &&
-      model.row_widths.size() != static_cast<std::size_t>(rows.value_or(heights.height))) {
+  const auto has_widths = [&](std::int64_t count) {
+    return static_cast<std::int64_t>(model.row_widths.size()) == count;
+  };
+  if (!model.row_widths.empty() && !has_widths(rows.value_or(heights.height)) &&
+      !has_widths(rows ? *rows : model.surround.height)) {
     return invalid_input(text("row_widths has ", model.row_widths.size(),
                               " numbers; it must have one per row, ",
                               rows.value_or(heights.height)));

@@ -22,7 +22,7 @@ struct TerrainDirection {
   double step = 1;                                         // world units from row to row
   double earth = std::numeric_limits<double>::infinity();  // its radius, with refraction
 
-  // What is added to heights in a swept row, of the grid or before it, for a round earth.
+  // What is added to heights in a swept row of the whole model, for a round earth.
   double offset(int row) const {
     const double y = position(row);
     return -y * y / (2 * earth);

@@ -32,7 +32,7 @@ class HandOver final : public LineEntries {
  private:
   void fail(const Status& status);
   // Rows of the whole model before the grid's first, in the order of the sweep.
-  int first_row() const { return direction_.sweep.rows_before; }
+  int first_row() const { return direction_.sweep.first_row; }
 
   const TerrainDirection& direction_;
   TerrainHulls *from_, *to_;

@@ -9,15 +9,6 @@
 
 namespace obscura {
 
-int SurroundLines::rows_before(const ElevationModel& model, const TerrainDirection& direction) {
-  const TerrainSurround& s = model.surround;
-  if (s.heights.empty()) return 0;
-  const std::int64_t whole = direction.transposed ? s.width : s.height;
-  const std::int64_t before = direction.transposed ? s.column : s.row;
-  const std::int64_t after = whole - before - direction.sweep.height;
-  return static_cast<int>(std::max<std::int64_t>(0, direction.sweep.reversed ? after : before));
-}
-
 bool SurroundLines::coarse_position(double column, int row, double* x, double* y) const {
   const TerrainSweep& sweep = direction_.sweep;
   const TerrainSurround& s = model_.surround;
@@ -62,7 +53,7 @@ std::span<const LinePoint> SurroundLines::before(int column, int entry, int work
     coarse_position(column + sweep.line(row), row, &x, &y);
     const float height = height_at(x, y);
     if (std::isnan(height)) continue;
-    const double bend = direction_.offset(row);
+    const double bend = direction_.offset(sweep.first_row + row);
     const LinePoint p{static_cast<float>(factor_ * (height - base_) + bend), row};
     while (points.size() >= 2) {
       const LinePoint &near = points.back(), &far = points[points.size() - 2];

@@ -23,9 +23,6 @@ class SurroundLines final : public LineEntries {
 
   std::span<const LinePoint> before(int column, int entry, int worker) override;
 
-  // Rows from the tile's first one, in the order of the sweep, back to the surround's border.
-  static int rows_before(const ElevationModel& model, const TerrainDirection& direction);
-
  private:
   // Of the coarse model, in the tile's swept grid; false outside it.
   bool coarse_position(double column, int row, double* x, double* y) const;

@@ -76,8 +76,8 @@ struct TerrainSweep {
   int width = 0, height = 0;
   bool reversed = false;  // from the last row to the first
   double shear = 0;
-  // Swept rows from the first of the model that the grid is a tile of: a tile has the same lines.
-  double first_row = 0;
+  // Swept rows from the first of the model that the grid is a part of: it has the same lines.
+  int first_row = 0;
   float inverse_step = 1;  // 1 / distance from row to row along a line
   // By swept row, for a round earth: added to heights, and taken from slopes. Null: a flat one.
   const float *row_offset = nullptr, *row_slope = nullptr;
@@ -89,6 +89,7 @@ struct TerrainSweep {
   LineEntries* entries = nullptr;  // null: nothing lies before the grid; no window then
   int rows_before = 0;             // how far before the grid's first row it lies
   int window = 0;                  // rows that a line looks back; 0: samples only
+  bool windows = false;            // whether that is less than the model has
   // The unit vector towards the horizon along columns and rows, each divided by the cell's side,
   // and 1 / the sides.
   float towards_column = 0, towards_row = 0;

@@ -59,7 +59,6 @@ class Block {
     while (begin_ < s_.height && !position_.in_grid(begin_)) ++begin_;
     int end = s_.height;
     while (end > begin_ && !position_.in_grid(end - 1)) --end;
-    windows_ = s_.window > 0 && s_.window < end - begin_;
     std::fill_n(none_, kLines, kNoHeight);
     slot_of_row_0_ = s_.entries ? 1 + s_.rows_before : 1 - begin_;
     const bool leave = s_.entries && (s_.entries->wants_last_row() || s_.entries->wants_sides());
@@ -81,7 +80,7 @@ class Block {
 
  private:
   float* LineHeights(int slot) const {
-    return lines_ + static_cast<std::ptrdiff_t>(windows_ ? slot : slot & 1) * kLines;
+    return lines_ + static_cast<std::ptrdiff_t>(s_.windows ? slot : slot & 1) * kLines;
   }
   const float* Row(int swept) const {
     return s_.heights + (s_.reversed ? s_.height - 1 - swept : swept) * s_.pitch;
@@ -174,11 +173,14 @@ class Block {
   void LookBack() {
     const D d;
     const int since = row_ - begin_;
-    // A window is cut where blocks of as many rows meet: chains lead through this block's rows from
-    // the viewer back, and through those of the block before from the window's far end forth.
-    const int in_block = windows_ ? since % s_.window : since;
-    const bool has_before = windows_ && since >= s_.window;
-    if (has_before && in_block == 0) TurnBlock();
+    // A window is cut where blocks of as many rows meet, counted from the model's first: chains
+    // lead through this block's rows from the viewer back, and through those of the block before
+    // from the window's far end forth.
+    const int in_block = s_.windows ? std::min(since, (s_.first_row + row_) % s_.window) : since;
+    const int before_block = s_.windows ? std::min(s_.window, since - in_block) : 0;
+    if (before_block > 0 && in_block == 0) TurnBlock(before_block);
+    // Of the block before, what the window reaches.
+    const int far = std::min(before_block, s_.window - in_block);
     const bool fresh = in_block == 0;
     const float* before = fresh && !s_.entries ? none_ : LineHeights(slot_ - 1);
     for (int i = 0; i < first_; i += kLanes) back_.ClearLines(slot_, i);
@@ -193,11 +195,11 @@ class Block {
       for (int u = 0; u < kTogether; ++u) {
         StoreSlope(i + u * kLanes, z[u], before, height[u], distance[u], false);
       }
-      if (!has_before) continue;
-      const int far = s_.window - in_block;  // slot of the window's far end, from the block's end
+      if (far <= 0) continue;
+      const int reach = in_block + far;
       for (int u = 0; u < kTogether; ++u) {
-        height[u] = hn::LoadU(d, LineHeights(slot_ - s_.window) + i + u * kLanes);
-        distance[u] = hn::Set(d, static_cast<float>(s_.window));
+        height[u] = hn::LoadU(d, LineHeights(slot_ - reach) + i + u * kLanes);
+        distance[u] = hn::Set(d, static_cast<float>(reach));
       }
       forth_.Climb<false>(far, i, static_cast<float>(in_block), z, height, distance);
       for (int u = 0; u < kTogether; ++u) {
@@ -206,11 +208,11 @@ class Block {
     }
   }
 
-  // Makes the chains that lead forth through the rows before this one, and ends those that lead
+  // Makes the chains that lead forth through so many rows before this one, and ends those that lead
   // back.
-  void TurnBlock() {
+  void TurnBlock(int rows) {
     const D d;
-    for (int slot = 1; slot <= s_.window; ++slot) {
+    for (int slot = 1; slot <= rows; ++slot) {
       const float* HWY_RESTRICT at = LineHeights(slot_ - slot);
       const float* HWY_RESTRICT after = slot == 1 ? none_ : LineHeights(slot_ - slot + 1);
       for (int i = 0; i < kLines; i += kStep) {
@@ -323,7 +325,6 @@ class Block {
   BlockPosition position_;
   Chains back_, forth_;
   float *lines_, *none_, *slopes_;
-  bool windows_ = false;
   int begin_ = 0;  // the first row in the grid
   int slot_of_row_0_ = 1;
   // Of the row at hand.

@@ -20,7 +20,7 @@ namespace {
 
 class Terrain {
  public:
-  // `band`: null for a model as a whole. Rows of latitudes then count from the heights' first.
+  // `band`: null for a model as a whole, or a tile.
   Terrain(const ElevationModel& model, const TerrainBand* band, const TerrainSettings& settings,
           const TerrainOutputs& outputs, Executor& executor, const RunOptions& run)
       : model_(model),
@@ -32,15 +32,17 @@ class Terrain {
         grid_(band ? inner_of(model)
                    : TerrainWindow{0, 0, model.heights.width, model.heights.height}),
         inner_(band ? TerrainWindow{0, 0, grid_.width, grid_.height} : inner_of(model)),
-        first_row_(band ? band->row + grid_.y : 0),
-        latitudes_(band ? terrain_latitudes(model, 0, band->height)
-                        : terrain_latitudes(model, inner_.y, inner_.y + inner_.height)) {
-    const Extent whole = {grid_.width, band ? band->height : grid_.height};
+        place_(place_of(model, band)),
+        first_row_(rows_are_whole() ? place_.row + grid_.y : 0),
+        latitudes_(rows_are_whole()
+                       ? terrain_latitudes(model, 0, place_.height)
+                       : terrain_latitudes(model, inner_.y, inner_.y + inner_.height)) {
     std::int64_t work = 0;
     for (const TerrainLatitudes& l : latitudes_) {
-      directions_.push_back(terrain_directions(whole, l.cell_width, model.cell_height, settings));
+      directions_.push_back(terrain_directions({place_.width, place_.height}, l.cell_width,
+                                               model.cell_height, settings));
       for (TerrainDirection& d : directions_.back()) {
-        if (band) cut_to_band(&d);
+        cut_to_grid(&d);
         if (takes_part(l, d.up())) ++work;
       }
     }
@@ -60,35 +62,53 @@ class Terrain {
   }
 
  private:
+  // The whole model, and where in it the heights lie.
+  struct Place {
+    int width, height, column, row;
+  };
+  static Place place_of(const ElevationModel& model, const TerrainBand* band) {
+    if (band) return {model.heights.width, band->height, 0, band->row};
+    const TerrainSurround& s = model.surround;
+    if (s.width == 0) return {model.heights.width, model.heights.height, 0, 0};
+    return {static_cast<int>(s.width), static_cast<int>(s.height), static_cast<int>(s.column),
+            static_cast<int>(s.row)};
+  }
+  // Whether rows of latitudes are those of the whole model.
+  bool rows_are_whole() const {
+    return band_ || model_.row_widths.size() == static_cast<std::size_t>(place_.height);
+  }
   int rows_above() const { return band_ ? grid_.y : 0; }
   int rows_below() const { return band_ ? model_.heights.height - grid_.y - grid_.height : 0; }
-  // Rows of the grid where these latitudes' results are wanted; the first is not below 0.
-  int begin_of(const TerrainLatitudes& l) const { return std::max(l.begin - first_row_, 0); }
+  // Rows of the grid where these latitudes' results are wanted.
+  int begin_of(const TerrainLatitudes& l) const { return std::max(l.begin - first_row_, inner_.y); }
   int end_of(const TerrainLatitudes& l) const {
     return std::min(l.end - first_row_, inner_.y + inner_.height);
   }
   // Whether lines run through the grid to these latitudes, and whether they go on behind it.
   bool takes_part(const TerrainLatitudes& l, bool up) const {
-    if (!band_) return true;
+    if (!band_) return begin_of(l) < end_of(l);
     return up == band_->up && (up ? l.begin < first_row_ + grid_.height : l.end > first_row_);
   }
   bool goes_on(const TerrainLatitudes& l, bool up) const {
     return up ? l.begin < first_row_ : l.end > first_row_ + grid_.height;
   }
 
-  // A direction over the whole model becomes one over the band's rows.
-  void cut_to_band(TerrainDirection* d) const {
+  // A direction over the whole model becomes one over the grid.
+  void cut_to_grid(TerrainDirection* d) const {
     TerrainSweep& s = d->sweep;
-    // A window that is not marched reaches over the whole model.
-    if (s.window > 0) s.window = std::numeric_limits<int>::max() / 2;
-    if (d->transposed) {
-      s.width = grid_.height;
-      return;
+    s.windows = s.window > 0 && s.window < d->whole_rows;
+    const Extent size = {grid_.width, grid_.height};
+    const int column = place_.column + grid_.x, row = place_.row + grid_.y;
+    s.width = d->transposed ? size.height : size.width;
+    s.height = d->transposed ? size.width : size.height;
+    const int before = d->transposed ? column : row;
+    s.first_row = s.reversed ? d->whole_rows - before - s.height : before;
+    if (!band_) {
+      if (!model_.surround.heights.empty()) s.rows_before = s.first_row;
+    } else {
+      s.rows_before = s.first_row;
+      if (!d->transposed) s.near_before = s.reversed ? rows_below() : rows_above();
     }
-    s.height = grid_.height;
-    s.rows_before = s.reversed ? band_->height - first_row_ - grid_.height : first_row_;
-    s.first_row = s.rows_before;
-    s.near_before = s.reversed ? rows_below() : rows_above();
   }
 
   // All memory is taken before an output is touched.
@@ -107,22 +127,17 @@ class Terrain {
     for (TerrainPlane& plane : sums_) take(plane, 1);
     scratch_.resize(executor_.thread_count());
     bool windows = false;
-    int rows = std::max(grid_.width, grid_.height), before = 0;
+    int rows = std::max(grid_.width, grid_.height);
     for (auto& directions : directions_) {
       for (TerrainDirection& d : directions) {
-        if (!band_) {
-          d.sweep.rows_before = SurroundLines::rows_before(model_, d);
-          d.sweep.first_row = d.sweep.rows_before;
-          before = std::max(before, d.sweep.rows_before);
-        }
         rows = std::max(rows, d.sweep.height + d.sweep.rows_before);
-        windows = windows || (d.sweep.window > 0 && d.sweep.window < d.sweep.height);
+        windows = windows || d.sweep.windows;
       }
     }
     for (TerrainScratch& s : scratch_) s.resize(rows, windows);
     points_.resize(executor_.thread_count());
     for (auto& points : points_) {
-      if (before > 0) points.reserve(rows / model_.surround.factor + 2);
+      if (!model_.surround.heights.empty()) points.reserve(rows / model_.surround.factor + 2);
     }
   }
 
@@ -201,9 +216,8 @@ class Terrain {
     s.near = direction.near.data();
     s.near_count = static_cast<int>(direction.near.size());
     if (!direction.row_offset.empty()) {
-      const int skipped = band_ ? s.rows_before : 0;
-      s.row_offset = direction.row_offset.data() + skipped;
-      s.row_slope = direction.row_slope.data() + skipped;
+      s.row_offset = direction.row_offset.data() + s.first_row;
+      s.row_slope = direction.row_slope.data() + s.first_row;
     }
     for (std::size_t i = 0; i < pass.wanted.size(); ++i) {
       s.sums[pass.wanted[i].sum] = sums_[i].row(0);
@@ -301,7 +315,8 @@ class Terrain {
   const std::vector<TerrainPass> passes_;
   const TerrainWindow grid_;   // that lines run through, in cells of the heights
   const TerrainWindow inner_;  // where results are wanted, in cells of the grid
-  const int first_row_;        // of latitudes, which is the grid's first
+  const Place place_;
+  const int first_row_;  // of latitudes, which is the grid's first
   const std::vector<TerrainLatitudes> latitudes_;
   std::vector<std::vector<TerrainDirection>> directions_;  // by latitudes
   const DominanceRing ring_{settings_};

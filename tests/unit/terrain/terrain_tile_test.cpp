@@ -91,6 +91,53 @@ TEST(TerrainTile, HaloAloneIsTheWholeWhereItReachesTheBorder) {
   }
 }
 
+// With finite radii, on flat and round earths and on geographic grids, beside holes.
+TEST(TerrainTile, HaloOfTheRadiusHasTheBitsOfTheWhole) {
+  Model m = reference::mountains(300, 260, 30, 600);
+  m.cell_height = 40;
+  for (int y = 100; y < 130; ++y) {
+    for (int x = 90; x < 99; ++x) m(x, y) = std::numeric_limits<float>::quiet_NaN();
+  }
+  std::vector<double> widths;
+  for (int y = 0; y < 260; ++y) widths.push_back(30 * std::cos(0.9 + 0.0004 * y));
+  for (const double radius : {300.0, 900.0, 1230.0, 3000.0, 9000.0}) {
+    for (const int kind : {0, 1, 2}) {
+      TerrainSettings settings;
+      settings.radius = radius;
+      settings.curvature = kind == 1;
+      ElevationModel all = m.view();
+      all.datum = 12.5;
+      if (kind == 2) all.row_widths = widths;
+      const Results whole = computed(all, settings);
+      const int halo = int(std::ceil(radius / (kind == 2 ? widths.back() : 30))) + 1, size = 60;
+      for (const auto& at : {std::array{0, 0}, {75, 101}, {240, 200}, {103, 0}}) {
+        const int x = at[0], y = at[1];
+        const int x0 = std::max(0, x - halo), y0 = std::max(0, y - halo);
+        const int x1 = std::min(m.width, x + size + halo);
+        const int y1 = std::min(m.height, y + size + halo);
+        ElevationModel tile = all;
+        tile.heights = {m.heights.data() + std::size_t(y0) * m.width + x0, x1 - x0, y1 - y0,
+                        m.width};
+        tile.inner = {x - x0, y - y0, size, size};
+        tile.surround.width = m.width;
+        tile.surround.height = m.height;
+        tile.surround.column = x0;
+        tile.surround.row = y0;
+        const Results part = computed(tile, settings);
+        int different = 0;
+        for (int j = 0; j < size; ++j) {
+          for (int i = 0; i < size; ++i) {
+            const std::size_t of_whole = std::size_t(y + j) * m.width + x + i;
+            const float a = part.openness[j * size + i], b = whole.openness[of_whole];
+            different += !(a == b || (std::isnan(a) && std::isnan(b)));
+          }
+        }
+        EXPECT_EQ(different, 0) << radius << " " << kind << " at " << x << "," << y;
+      }
+    }
+  }
+}
+
 // A surround as fine as the model gives the whole's horizons: lines bring along what they crossed.
 TEST(TerrainTile, FineSurroundGivesTheWhole) {
   const Model m = reference::mountains(150, 130, 30, 600);
@@ -163,7 +210,7 @@ TEST(TerrainTile, WhatIsWrongIsNamed) {
     EXPECT_NE(s.message().find(part), std::string::npos) << s.message();
   };
   expect("inner is 20x20 at 11,5", [](auto& m, auto&) { m.inner.x = 11; });
-  expect("surround needs a radius of infinity", [](auto&, auto& s) { s.radius = 300; });
+  expect("surround.heights need a radius of infinity", [](auto&, auto& s) { s.radius = 300; });
   expect("surround.factor is 0", [](auto& m, auto&) { m.surround.factor = 0; });
   expect("must lie within", [](auto& m, auto&) { m.surround.column = 30; });
   expect("svf is 20x20; it must be as large as what is wanted of the model, 21x20",

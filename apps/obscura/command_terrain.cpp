@@ -12,6 +12,7 @@
 #include "fmt/format.h"
 #include "io/images/files.h"
 #include "io/pictures/hill_shade.h"
+#include "io/rasters/gdal.h"
 #include "io/rasters/raster.h"
 #include "io/report/progress_bar.h"
 #include "io/report/stopwatch.h"
@@ -192,12 +193,8 @@ Status run_in_parts(const TerrainCommand& c, const TerrainRequest& p,
   settings.radius = p.options.radius.value * (p.options.radius.cells ? cell : 1);
   settings.z_factor = whole.z_factor;
   *done = true;
-  if (!in_tiles) {
-    if (std::isfinite(settings.radius) && settings.radius >= band_radius(whole)) {
-      return unsupported(fmt::format(
-          "--radius is {:.6g} m; with --memory it must be inf or less than {:.6g} m, {} cells",
-          settings.radius, band_radius(whole), kTerrainBandRadius));
-    }
+  const bool long_radius = std::isfinite(settings.radius) && settings.radius >= band_radius(whole);
+  if (!in_tiles && !long_radius) {
     TerrainBands bands{c.input, c.output, read, settings, p.quantities, settings_text(p)};
     bands.rows = band_rows(whole, p.memory, p.quantities, azimuths, c.threads);
     if (bands.rows == 0) {
@@ -205,16 +202,19 @@ Status run_in_parts(const TerrainCommand& c, const TerrainRequest& p,
           p.memory, "band of rows",
           band_bytes(whole, kLeastBandRows, p.quantities, azimuths, c.threads));
     }
+    tools::limit_gdal_memory(gdal_bytes(whole.whole_width));
     bands.threads = c.threads;
     bands.overviews = c.overviews;
     bands.quiet = quiet;
     return bands.run();
   }
   TerrainTiles tiles{c.input, c.output, read, settings, p.quantities, settings_text(p)};
-  tiles.side = c.tile > 0 ? c.tile : tile_side(p.memory, channels);
+  const int halo = tile_halo(whole, settings.radius);
+  tiles.side = c.tile > 0 ? c.tile : tile_side(p.memory, halo, channels);
   if (tiles.side == 0) {
-    return too_little_memory(p.memory, "tile with its halo", tile_bytes(256, channels));
+    return too_little_memory(p.memory, "tile with its halo", tile_bytes(256, halo, channels));
   }
+  if (!c.memory.empty()) tools::limit_gdal_memory(gdal_bytes(tiles.side + 2.0 * halo));
   tiles.part = p.part;
   tiles.parts = p.parts;
   tiles.threads = c.threads;

@@ -22,9 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// GDAL's own memory of a file: a row of its blocks, which are read line by line.
-double gdal_bytes(int width) { return 64e6 + 4.0 * 640 * width; }
-
 class BandRun {
  public:
   BandRun(const TerrainBands& bands, const tools::Raster& whole)
@@ -37,7 +34,7 @@ class BandRun {
     const std::string about = fmt::format("{} size={}x{} rows={}", b_.about, whole_.whole_width,
                                           whole_.whole_height, b_.rows);
     if (Status s = open_work_folder(folder_, b_.input, about); !s.ok()) return s;
-    if (Status s = find_datum(); !s.ok()) return s;
+    if (Status s = find_terrain_datum(b_.input, b_.read, whole_, &datum_); !s.ok()) return s;
     tools::ProgressBar bar("bands", !b_.quiet);
     int done = 0;
     for (const bool up : {false, true}) {
@@ -68,22 +65,6 @@ class BandRun {
     tools::RasterOptions options = b_.read;
     options.window = tools::RasterWindow{0, row, whole_.whole_width, count};
     return tools::read_raster(b_.input, options, raster);
-  }
-
-  // The first height, as the whole model takes it.
-  Status find_datum() {
-    datum_ = 0;
-    for (int row = 0; row < whole_.whole_height; row += b_.rows) {
-      tools::Raster raster;
-      const int count = std::min(b_.rows, whole_.whole_height - row);
-      if (Status s = read(row, count, &raster); !s.ok()) return s;
-      const auto found = std::ranges::find_if(
-          raster.heights, [](float h) { return std::fabs(h) <= kMostTerrainHeight; });
-      if (found == raster.heights.end()) continue;
-      datum_ = *found;
-      return {};
-    }
-    return {};
   }
 
   // `order`: of the band among those in this direction.
@@ -197,11 +178,7 @@ class BandRun {
 
 }  // namespace
 
-double band_radius(const tools::Raster& raster) {
-  double cell = std::min(raster.cell_width, raster.cell_height);
-  for (const double width : raster.whole_row_widths) cell = std::min(cell, width);
-  return kTerrainBandRadius * cell;
-}
+double band_radius(const tools::Raster& raster) { return kTerrainBandRadius * least_cell(raster); }
 
 double band_bytes(const tools::Raster& raster, int rows, const TerrainQuantities& quantities,
                   int azimuths, int threads) {
@@ -231,7 +208,6 @@ Status TerrainBands::run() {
   tools::RasterOptions corner = read;
   corner.window = tools::RasterWindow{0, 0, 1, 1};
   if (Status s = tools::read_raster(input, corner, &whole); !s.ok()) return s;
-  tools::limit_gdal_memory(gdal_bytes(whole.whole_width));
   return BandRun(*this, whole).run();
 }
 

@@ -3,10 +3,12 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fmt/format.h"
 #include "obscura/settings.h"
+#include "obscura/terrain.h"
 
 namespace obscura::app {
 
@@ -36,6 +38,31 @@ void return_large_arrays() {
 Status too_little_memory(double bytes, const std::string& part, double least) {
   return invalid_argument(fmt::format("--memory: {:.0f} MB do not hold a {}; give at least {:.0f}M",
                                       1e-6 * bytes, part, std::ceil(1e-6 * least)));
+}
+
+Status find_terrain_datum(const std::string& path, const tools::RasterOptions& options,
+                          const tools::Raster& whole, double* datum) {
+  *datum = 0;
+  const int rows = std::max(1, (1 << 24) / whole.whole_width);
+  for (int row = 0; row < whole.whole_height; row += rows) {
+    tools::Raster raster;
+    tools::RasterOptions strip = options;
+    const int count = std::min(rows, whole.whole_height - row);
+    strip.window = tools::RasterWindow{0, row, whole.whole_width, count};
+    if (Status s = tools::read_raster(path, strip, &raster); !s.ok()) return s;
+    const auto found = std::ranges::find_if(
+        raster.heights, [](float h) { return std::fabs(h) <= kMostTerrainHeight; });
+    if (found == raster.heights.end()) continue;
+    *datum = *found;
+    break;
+  }
+  return {};
+}
+
+double least_cell(const tools::Raster& whole) {
+  double cell = std::min(whole.cell_width, whole.cell_height);
+  for (const double width : whole.whole_row_widths) cell = std::min(cell, width);
+  return cell;
 }
 
 Status parse_part(const std::string& text, int* part, int* parts) {

@@ -16,25 +16,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Horizons beyond the halo come from blocks of an eighth of its width.
+// Where the radius is infinite, horizons beyond the halo come from blocks of an eighth of its
+// width.
 constexpr int kHalo = 512, kHaloBlocks = 8;
 
 class TileRun {
  public:
   TileRun(const TerrainTiles& tiles, const tools::Raster& whole)
-      : t_(tiles), whole_(whole), folder_(tiles.output + ".tiles") {
+      : t_(tiles),
+        whole_(whole),
+        folder_(tiles.output + ".tiles"),
+        halo_(tile_halo(whole, tiles.settings.radius)) {
     across_ = (whole.whole_width + t_.side - 1) / t_.side;
     count_ = across_ * ((whole.whole_height + t_.side - 1) / t_.side);
   }
 
   Status run() {
-    if (!std::isinf(t_.settings.radius)) {
-      return unsupported("--radius must be inf for tiles");
-    }
     const std::string about = fmt::format("{} size={}x{} tile={} halo={}", t_.about,
                                           whole_.whole_width, whole_.whole_height, t_.side, halo_);
     if (Status s = open_work_folder(folder_, t_.input, about); !s.ok()) return s;
-    if (Status s = find_surround(); !s.ok()) return s;
+    if (Status s = find_terrain_datum(t_.input, t_.read, whole_, &datum_); !s.ok()) return s;
+    if (std::isinf(t_.settings.radius)) {
+      if (Status s = find_surround(); !s.ok()) return s;
+    }
     tools::ProgressBar bar("tiles", !t_.quiet);
     for (int i = t_.part - 1; i < count_; i += t_.parts) {
       if (!bar(static_cast<double>(i) / count_)) {
@@ -106,15 +110,16 @@ class TileRun {
     model.heights = {raster.heights.data(), raster.width, raster.height};
     model.cell_width = whole_.cell_width;
     model.cell_height = whole_.cell_height;
-    model.row_widths = raster.row_widths;
+    model.row_widths = whole_.whole_row_widths;
+    model.datum = datum_;
     model.inner = {inner.x - x0, inner.y - y0, inner.width, inner.height};
+    model.surround.width = whole_.whole_width;
+    model.surround.height = whole_.whole_height;
+    model.surround.column = x0;
+    model.surround.row = y0;
     if (!surround_.channels.empty()) {
       model.surround.heights = surround_.view(0);
       model.surround.factor = kHalo / kHaloBlocks;
-      model.surround.width = whole_.whole_width;
-      model.surround.height = whole_.whole_height;
-      model.surround.column = x0;
-      model.surround.row = y0;
     }
     TerrainQuantities results = t_.quantities;
     const TerrainOutputs outputs =
@@ -178,22 +183,29 @@ class TileRun {
   const TerrainTiles& t_;
   const tools::Raster& whole_;
   const std::string folder_;
-  const int halo_ = kHalo;
+  const int halo_;
+  double datum_ = 0;
   int across_ = 0, count_ = 0;
   tools::Image surround_;
 };
 
 }  // namespace
 
-// Bytes of a tile with its halo: heights as read and as swept, sums; results twice.
-double tile_bytes(double side, int channels) {
-  const double around = side + 2 * kHalo;
-  return 4 * (around * around * (2 + channels) + 2 * side * side * channels);
+int tile_halo(const tools::Raster& raster, double radius) {
+  if (std::isinf(radius)) return kHalo;
+  return static_cast<int>(std::min(radius / least_cell(raster), 1e6)) + 2;
 }
 
-int tile_side(double bytes, int channels) {
+// Bytes of a tile with its halo: heights as read and as swept, sums; results twice.
+double tile_bytes(double side, int halo, int channels) {
+  const double around = side + 2.0 * halo;
+  return kProgramBytes + gdal_bytes(around) +
+         4 * (around * around * (2 + channels) + 2 * side * side * channels);
+}
+
+int tile_side(double bytes, int halo, int channels) {
   int side = 0;
-  while (side < 65536 && tile_bytes(side + 256, channels) <= bytes) side += 256;
+  while (side < 65536 && tile_bytes(side + 256, halo, channels) <= bytes) side += 256;
   return side;
 }
 

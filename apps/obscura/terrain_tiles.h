@@ -25,10 +25,11 @@ struct TerrainTiles {
   Status run();
 };
 
-// Cells of a tile whose computation takes at most so many bytes, 0 where none does; bytes of a
-// tile.
-int tile_side(double bytes, int channels);
-double tile_bytes(double side, int channels);
+// Cells around a tile that are computed with it, for a radius in metres.
+int tile_halo(const tools::Raster& raster, double radius);
+// Cells of a tile whose computation takes at most so many bytes, 0 where none does.
+int tile_side(double bytes, int halo, int channels);
+double tile_bytes(double side, int halo, int channels);
 // What a raster takes that is computed as a whole.
 double whole_bytes(const tools::Raster& raster, int channels);
 

@@ -296,7 +296,11 @@ TEST_F(TerrainCommand, ComputesInTilesAndParts) {
   expect_success(line + "parts.tif --tile 64 --part 1/2");
   EXPECT_EQ(read_file(path("parts.tif")).size(), read_file(path("tiles.tif")).size());
   EXPECT_TRUE(same(result("parts.tif"), result("tiles.tif"), 0));
-  expect_failure(line + "x.tif --radius 8px --tile 64", 2, "--radius must be inf for tiles");
+  for (const char* radius : {" --radius 8px", " --radius 40px"}) {
+    expect_success(line + "whole.tif" + radius);
+    expect_success(line + "tiles.tif --tile 64" + radius);
+    EXPECT_TRUE(same(result("tiles.tif"), result("whole.tif"), 0)) << radius;
+  }
   expect_failure(line + "x.tif --memory 3", 2, "--memory is '3'");
   expect_failure(line + "x.tif --memory 0.1M", 2, "do not hold a band of rows");
   expect_failure(line + "x.tif --part 3/2", 2, "--part is '3/2'");

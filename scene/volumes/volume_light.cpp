@@ -24,6 +24,27 @@ bool parse_numbers(std::string_view text, std::vector<double>* values) {
   }
 }
 
+constexpr float kSky = 0.4f;      // the sky's share of the light of a lit picture
+constexpr float kGround = 0.15f;  // light from straight below, the sky's zenith being 1
+// A lamp over the right shoulder of who looks: this much right and up for each step ahead.
+constexpr float kLampRight = 0.5f, kLampUp = 0.4f;
+
+// The cosine between the normal and the way to a lamp `right` and `up` of the camera; 0 from behind.
+float headlight(const SurfaceCamera& camera, const SurfacePoint& point, float right, float up) {
+  float to_eye[3], length2 = 0;
+  for (int a = 0; a < 3; ++a) {
+    to_eye[a] = camera.orthographic ? -camera.forward[a] : camera.eye[a] - point.position[a];
+    length2 += to_eye[a] * to_eye[a];
+  }
+  if (!(length2 > 0)) return 0;
+  const float distance = std::sqrt(length2);
+  float dot = 0;
+  for (int a = 0; a < 3; ++a) {
+    dot += (to_eye[a] / distance + right * camera.right[a] + up * camera.up[a]) * point.normal[a];
+  }
+  return std::clamp(dot / std::sqrt(1 + right * right + up * up), 0.0f, 1.0f);
+}
+
 // Runs loops in the calling thread, as render_surface has threads of its own.
 class InlineExecutor : public Executor {
  public:
@@ -41,8 +62,10 @@ Status parse_volume_light(const std::string& text, VolumeLight* light) {
   const std::string name = text.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
   std::vector<double> v;
-  if (text == "ao" || text == "headlight") {
-    result.kind = text == "ao" ? VolumeLight::kAmbient : VolumeLight::kHeadlight;
+  if (text == "lit" || text == "ao" || text == "headlight") {
+    result.kind = text == "lit"  ? VolumeLight::kLit
+                  : text == "ao" ? VolumeLight::kAmbient
+                                 : VolumeLight::kHeadlight;
   } else if (text == "octants:upper") {
     result.kind = VolumeLight::kOctants;
     result.upper = true;
@@ -105,16 +128,19 @@ unsigned upper_octants(const VolumeImage& image) {
 Status VolumeShading::prepare(const VolumeImage& image, GridView<const float> distance,
                               const VolumeLight& light, const OcclusionSettings& occlusion,
                               const VolumeTruth& truth, const RunOptions& run) {
-  if (truth.monte_carlo && light.kind != VolumeLight::kAmbient &&
-      light.kind != VolumeLight::kShadow) {
-    return invalid_argument("monte-carlo knows the lights ao and shadow:X,Y,Z only");
+  if (truth.monte_carlo && !light.has_rays()) {
+    return invalid_argument("monte-carlo knows the lights lit, ao and shadow:X,Y,Z only");
   }
   if (Status s = validate_ranges(truth.settings); !s.ok()) return s;
   distance_ = distance;
   light_ = light;
   truth_ = truth;
   const Double3 to_light = image.direction_to_grid(light.to_light);
-  for (int a = 0; a < 3; ++a) to_light_[a] = float(to_light[a]);
+  const Double3 up = image.direction_to_grid(image.up);
+  for (int a = 0; a < 3; ++a) {
+    to_light_[a] = float(to_light[a]);
+    up_[a] = float(up[a]);
+  }
   settings_ = {};
   if (light.kind == VolumeLight::kOctants) {
     settings_.octants = octants_to_grid(image, light.upper ? upper_octants(image) : light.octants);
@@ -128,33 +154,42 @@ Status VolumeShading::prepare(const VolumeImage& image, GridView<const float> di
   return sweep_occlusion(distance, settings, &field_, run);
 }
 
+Status VolumeShading::visibility(int first_row, std::span<const SurfacePoint> points,
+                                 std::span<float> light) const {
+  InlineExecutor executor;
+  RunOptions run;
+  run.executor = &executor;
+  if (!truth_.monte_carlo) return field_.light(points, settings_, light, run);
+  MonteCarloSettings settings = truth_.settings;
+  // Blocks of rows differ in their noise.
+  settings.seed += static_cast<std::uint32_t>(first_row) * 0x9E3779B9u;
+  return light_.kind == VolumeLight::kShadow
+             ? hard_shadow(distance_, points, to_light_, settings, light, run)
+             : monte_carlo_visibility(distance_, points, settings, light, run);
+}
+
 SurfaceShader VolumeShading::shader(const SurfaceCamera& camera) const {
   if (light_.kind == VolumeLight::kHeadlight) {
     return [&camera](int, std::span<const SurfacePoint> points, std::span<float> light) {
+      for (std::size_t i = 0; i < points.size(); ++i) light[i] = headlight(camera, points[i], 0, 0);
+      return Status();
+    };
+  }
+  if (light_.kind == VolumeLight::kLit) {
+    return [this, &camera](int first_row, std::span<const SurfacePoint> points,
+                           std::span<float> light) {
+      if (Status s = visibility(first_row, points, light); !s.ok()) return s;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        float dot = 0, length2 = 0;
-        for (int a = 0; a < 3; ++a) {
-          const float to_eye =
-              camera.orthographic ? -camera.forward[a] : camera.eye[a] - points[i].position[a];
-          dot += to_eye * points[i].normal[a];
-          length2 += to_eye * to_eye;
-        }
-        light[i] = length2 > 0 ? std::clamp(dot / std::sqrt(length2), 0.0f, 1.0f) : 0;
+        float above = 0;
+        for (int a = 0; a < 3; ++a) above += up_[a] * points[i].normal[a];
+        const float sky = kGround + (1 - kGround) * (0.5f + 0.5f * above);
+        light[i] *= kSky * sky + (1 - kSky) * headlight(camera, points[i], kLampRight, kLampUp);
       }
       return Status();
     };
   }
   return [this](int first_row, std::span<const SurfacePoint> points, std::span<float> light) {
-    InlineExecutor executor;
-    RunOptions run;
-    run.executor = &executor;
-    if (!truth_.monte_carlo) return field_.light(points, settings_, light, run);
-    MonteCarloSettings settings = truth_.settings;
-    // Blocks of rows differ in their noise.
-    settings.seed += static_cast<std::uint32_t>(first_row) * 0x9E3779B9u;
-    return light_.kind == VolumeLight::kShadow
-               ? hard_shadow(distance_, points, to_light_, settings, light, run)
-               : monte_carlo_visibility(distance_, points, settings, light, run);
+    return visibility(first_row, points, light);
   };
 }
 

@@ -10,7 +10,7 @@ namespace obscura::tools {
 
 // The light in a picture of a volume.
 struct VolumeLight {
-  enum Kind { kAmbient, kHeadlight, kOctants, kShadow, kTranslucent };
+  enum Kind { kAmbient, kHeadlight, kOctants, kShadow, kTranslucent, kLit };
   Kind kind = kAmbient;
   unsigned octants = kAllOctants;  // kOctants: of the world
   bool upper = false;              // kOctants: the four on the side that is up
@@ -18,7 +18,9 @@ struct VolumeLight {
   float alpha = 1;                 // kTranslucent
 
   static constexpr const char* kForm =
-      "ao, headlight, octants:LIST (of 0 to 7, or upper), shadow:X,Y,Z or translucent:ALPHA";
+      "lit, ao, headlight, octants:LIST (of 0 to 7, or upper), shadow:X,Y,Z or translucent:ALPHA";
+  // Whether rays can stand in for the sweeps.
+  bool has_rays() const { return kind == kAmbient || kind == kShadow || kind == kLit; }
 };
 Status parse_volume_light(const std::string& text, VolumeLight* light);
 
@@ -41,16 +43,21 @@ class VolumeShading {
                  const OcclusionSettings& occlusion, const VolumeTruth& truth,
                  const RunOptions& run);
 
-  // For render_surface; the camera must outlive the shader.
+  // For render_surface; the camera must outlive the shader. kLit is ambient visibility times a sky
+  // that is brighter above and a lamp at the camera, half each; a point that is open, faces the
+  // camera and points upwards is 1.
   SurfaceShader shader(const SurfaceCamera& camera) const;
 
   const VisibilityField& field() const { return field_; }
 
  private:
+  Status visibility(int first_row, std::span<const SurfacePoint> points,
+                    std::span<float> light) const;
+
   GridView<const float> distance_;
   VolumeLight light_;
   VolumeTruth truth_;
-  std::array<float, 3> to_light_{};  // grid space
+  std::array<float, 3> to_light_{}, up_{};  // grid space
   LightSettings settings_;
   VisibilityField field_;
 };

@@ -20,10 +20,12 @@ struct VolumeViewOptions {
   std::optional<double> fov_y{}, ortho_height{};
 };
 
-// The camera in the volume's grid space. By default it looks at the middle of the voxels where
-// `distance` is not positive, obliquely from above, and shows all of them; `up` is the image's.
+// The camera in the volume's grid space. By default it looks obliquely from above at all voxels
+// where `distance` is not positive, and they fill 84 % of the picture's width or height; `up` is
+// the image's. In anatomical space it stands ahead of the patient, towards the right side.
 Status place_camera(const VolumeImage& image, GridView<const float> distance,
-                    const VolumeViewOptions& options, SurfaceCamera* camera);
+                    const VolumeViewOptions& options, SurfaceCamera* camera,
+                    const RunOptions& run = {});
 
 }  // namespace obscura::tools
 

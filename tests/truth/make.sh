@@ -10,4 +10,5 @@ obscura=${1:-../../build/release/bin/obscura}
 "$obscura" ao scene:tower --method ray-traced --rays 16384 --every 7 --radius 1 \
   --outputs visibility,bent-normal,cone-angle -o tower.exr
 "$obscura" volume volume:gyroid --method monte-carlo --rays 16384 --size 64x64 \
-  --samples-per-pixel 1 -o gyroid.exr
+  --samples-per-pixel 1 --eye 1.794695767540157,2.8539923046184668,1.55929653707831 \
+  --look-at 0.5,0.5,0.5 -o gyroid.exr

@@ -1,0 +1,75 @@
+// What obscura volume writes.
+#include <cmath>
+
+#include "apps/obscura/volume_command.h"
+#include "fmt/format.h"
+#include "io/images/files.h"
+#include "io/volumes/vdb.h"
+
+namespace obscura::app {
+
+Status write_volume_fields(const VolumeCommand& c, FieldsKind kind, const tools::VolumeImage& image,
+                           const std::vector<float>& distance, const VisibilityField& field,
+                           const RunOptions& run) {
+  tools::FieldGrid grid;
+  std::vector<tools::NamedField> fields;
+  const tools::Double3 h = image.spacing();
+  if (kind == FieldsKind::kDistance) {
+    grid = {image.size, image.axes, image.origin};
+    fields.push_back({"distance", distance});
+  } else {
+    grid.size = field.size();
+    const auto spacing = field.spacing(), origin = field.origin();
+    grid.origin = image.to_world({origin[0], origin[1], origin[2]});
+    for (int a = 0; a < 3; ++a) {
+      for (int k = 0; k < 3; ++k) grid.axes[a][k] = image.axes[a][k] / h[a] * spacing[a];
+    }
+    const std::size_t voxels = std::size_t(grid.size[0]) * grid.size[1] * grid.size[2];
+    const int count = kind == FieldsKind::kScalar ? 1 : 8;
+    for (int s = 0; s < count; ++s) {
+      fields.push_back({count == 1 ? "visibility" : fmt::format("visibility_octant_{}", s),
+                        std::vector<float>(voxels)});
+      const GridView<float> view(fields.back().values.data(), grid.size, spacing);
+      if (Status status = count == 1 ? field.scalar(view, run) : field.octant(s, view);
+          !status.ok()) {
+        return status;
+      }
+    }
+  }
+  return tools::file_ending(c.fields) == ".vdb" ? tools::write_vdb(c.fields, grid, fields)
+                                                : tools::write_nrrd(c.fields, grid, fields);
+}
+
+// Mean over the pixels that the surface covers, background taken out of those it covers partly.
+double mean_visibility(const VolumePictures& pictures) {
+  double sum = 0, covered = 0;
+  const std::vector<float>& coverage = pictures.coverage.channels[0].values;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    const double c = coverage[i];
+    sum += pictures.visibility.channels[0].values[i] - (1 - c);
+    covered += c;
+  }
+  return covered > 0 ? sum / covered : NAN;
+}
+
+Status write_volume_picture(const VolumeCommand& c, const VolumeRequest& p, VolumePictures all) {
+  tools::WriteOptions write;
+  write.half = c.half;
+  const float gamma = float(p.gamma);
+  if (p.picture) {
+    return tools::write_image(
+        c.output,
+        tools::picture_of_light(all.visibility, all.coverage, p.settings.picture.colours, gamma),
+        write);
+  }
+  if (gamma != 1) {
+    for (float& v : all.visibility.channels[0].values) v = std::pow(v, 1 / gamma);
+  }
+  tools::Image result(all.visibility.width, all.visibility.height);
+  if (p.visibility) result.add("visibility") = std::move(all.visibility.channels[0].values);
+  if (p.coverage) result.add("coverage") = std::move(all.coverage.channels[0].values);
+  if (p.depth) result.add("depth") = std::move(all.depth.channels[0].values);
+  return tools::write_image(c.output, result, write);
+}
+
+}  // namespace obscura::app

@@ -24,12 +24,13 @@ bool parse_numbers(std::string_view text, std::vector<double>* values) {
   }
 }
 
-constexpr float kSky = 0.4f;      // the sky's share of the light of a lit picture
+constexpr float kSky = 0.35f;     // the sky's share of the light of a lit picture
 constexpr float kGround = 0.15f;  // light from straight below, the sky's zenith being 1
 // A lamp over the right shoulder of who looks: this much right and up for each step ahead.
-constexpr float kLampRight = 0.5f, kLampUp = 0.4f;
+constexpr float kLampRight = 0.65f, kLampUp = 0.4f;
 
-// The cosine between the normal and the way to a lamp `right` and `up` of the camera; 0 from behind.
+// The cosine between the normal and the way to a lamp `right` and `up` of the camera; 0 from
+// behind.
 float headlight(const SurfaceCamera& camera, const SurfacePoint& point, float right, float up) {
   float to_eye[3], length2 = 0;
   for (int a = 0; a < 3; ++a) {

@@ -138,8 +138,8 @@ TEST_F(VolumePicture, BadUsage) {
   expect_failure(ball + "-o a.pfm --background-colour 1,1,1", 2, "--background-colour");
   expect_failure(ball + "-o a.png --surface-colour 1,1", 2, "each in [0, 1]");
   expect_failure(ball + "-o a.png --surface-colour 2,1,1", 2, "each in [0, 1]");
-  expect_failure(ball + "-o a.png --gamma 0", 2, "--gamma is 0");
-  expect_failure(ball + "-o a.png --gamma nan", 2, "--gamma");
+  expect_failure(ball + "-o a.png --gamma 0", 2, "--gamma is '0'");
+  expect_failure(ball + "-o a.png --gamma 11", 2, "--gamma is 11; it must be in [0.1, 10]");
   for (const char* file : {"a.png", "a.pfm"}) {
     expect_failure(ball + "-o " + file + " --eye 5,5,5 --look-at 9,9,9", 2,
                    "misses the surface; --eye and --look-at must show a part of the volume");

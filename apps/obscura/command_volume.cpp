@@ -35,8 +35,20 @@ Status choose_isovalue(const VolumeCommand& c, const tools::VolumeImage& image, 
   return {};
 }
 
-// What a camera that looks past all matter is told: where the volume lies.
-Status misses_the_surface(const tools::VolumeImage& image) {
+// A refused isovalue, named as the user gave it.
+Status named_by_option(const Status& s, const VolumeCommand& c) {
+  const bool isovalue = s.message().starts_with("isovalue") && c.table.given("iso");
+  return isovalue ? Status(s.code(), "--iso: " + s.message()) : s;
+}
+
+// What is said where no ray meets the surface: of a camera that was placed, where the volume lies.
+Status misses_the_surface(const VolumeCommand& c, const tools::VolumeImage& image) {
+  if (!c.table.given("eye") && !c.table.given("look_at")) {
+    return invalid_input(
+        fmt::format("{}: its surface is smaller than a pixel; its matter is few voxels among NaN. "
+                    "Choose another --iso, or clip the NaN away by --clip",
+                    image.name));
+  }
   tools::Double3 low, high;
   low.fill(INFINITY);
   high.fill(-INFINITY);
@@ -81,7 +93,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
   Status status = stage("distance", [&](const RunOptions& run) {
     return sweep_distance(view, settings.distance, distance, run);
   });
-  if (!status.ok()) return status;
+  if (!status.ok()) return named_by_option(status, c);
   const double measured = watch.seconds();
 
   SurfaceCamera camera;
@@ -125,7 +137,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
     });
     if (!status.ok()) return status;
     const double rendered = watch.seconds(), mean = mean_visibility(pictures);
-    if (std::isnan(mean)) return misses_the_surface(image);
+    if (std::isnan(mean)) return misses_the_surface(c, image);
     const char* measured_light = p.picture ? "mean light" : "mean visibility";
     report.add(p.light_name, "time to render", 1e3 * (rendered - swept), "ms");
     report.add(p.light_name, measured_light, mean);

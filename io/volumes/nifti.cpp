@@ -145,7 +145,9 @@ void place_by_qform(const Header& h, VolumeImage* image) {
 void place_by_spacing(const Header& h, VolumeImage* image) {
   for (int a = 0; a < 3; ++a) {
     image->axes[a] = {};
-    image->axes[a][a] = h.pixdim[a + 1] == 0 ? 1 : std::abs(h.pixdim[a + 1]);
+    // An axis of one voxel needs no spacing, and writers leave it 0.
+    const bool unset = h.pixdim[a + 1] == 0 && image->size[a] == 1;
+    image->axes[a][a] = unset ? 1 : std::abs(h.pixdim[a + 1]);
   }
 }
 

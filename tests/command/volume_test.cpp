@@ -70,7 +70,9 @@ TEST_F(VolumeCommand, IsovalueIsChosenAndSaid) {
   const CommandResult r = run("volume a.raw --raw-size 8x8x8 --size 16x16 -o a.png");
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.out.find("isovalue 50 (Otsu's threshold"), std::string::npos) << r.out;
-  expect_failure("volume a.raw --raw-size 8x8x8 --iso 200 -o b.png", 2, "go from 0 to 100");
+  expect_failure("volume a.raw --raw-size 8x8x8 --iso 200 -o b.png", 2,
+                 "--iso: isovalue is 200, which does not cut the volume; its values go from 0 to "
+                 "100");
   EXPECT_FALSE(std::filesystem::exists(path("b.png")));
   const CommandResult info = run("info a.raw --raw-size 8x8x8");
   EXPECT_NE(info.out.find("Otsu's threshold 50"), std::string::npos) << info.out << info.err;
@@ -116,6 +118,17 @@ TEST_F(VolumeCommand, HolesAndThinVolumes) {
   write("b.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
   expect_failure("volume b.raw --raw-size 12x12x1 --raw-type f32 --iso 0.5 -o b.png", 3,
                  "no finite voxel");
+  // Matter of single voxels among NaN has no surface to see.
+  values[70] = 1;
+  values[71] = 0;
+  write("c.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
+  expect_failure("volume c.raw --raw-size 12x12x1 --raw-type f32 --iso 1 -o b.png", 3,
+                 "smaller than a pixel");
+  for (const char* spacing : {"0,1,1", "1e-30,1,1", "nan,1,1"}) {
+    expect_failure(
+        std::string("volume c.raw --raw-size 24x24x1 --raw-spacing ") + spacing + " -o b.png",
+        spacing[0] == '1' ? 3 : 2, "spacing");
+  }
 }
 
 TEST_F(VolumeCommand, BadUsageAndInput) {

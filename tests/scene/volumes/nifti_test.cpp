@@ -31,6 +31,20 @@ TEST_F(NiftiTest, SlopeInterceptAndSpacing) {
   }
 }
 
+// A spacing of 0 is no spacing, but where there is one voxel.
+TEST_F(NiftiTest, SpacingOfZeroOrNearlyZero) {
+  NiftiBytes flat(2, 3, 1, 2);
+  flat.put<float>(88, 0);
+  VolumeImage image;
+  ASSERT_TRUE(load_volume(write("flat.nii", flat.with(ramp(6))), {}, &image).ok());
+  EXPECT_EQ(image.spacing(), (Double3{1, 1, 1}));
+  for (const float spacing : {0.0f, 1e-30f}) {
+    NiftiBytes header(2, 3, 4, 2);
+    header.put<float>(84, spacing);
+    expect_refused(write("a.nii", header.with(ramp(24))), "spacing along y");
+  }
+}
+
 TEST_F(NiftiTest, EveryTypeAndByteOrder) {
   const std::vector<std::pair<int, int>> types = {{4, 2},  {512, 2}, {8, 4},    {768, 4}, {16, 4},
                                                   {64, 8}, {256, 1}, {1024, 8}, {1280, 8}};

@@ -104,6 +104,11 @@ Status run_compare(const CompareCommand& c) {
     report.add(name, "maximum", r.maximum, "%");
     report.add(name, "correlation", r.correlation);
     report.add(name, "pixels", static_cast<double>(r.pixels));
+    report.add(name, "infinite in one only", static_cast<double>(r.infinite));
+    if (r.infinite > 0) {
+      fmt::print(stderr, "obscura: note: {}: {} pixels are infinite in one image only, left out\n",
+                 name, r.infinite);
+    }
     if (!c.quiet && c.json != "-") {
       fmt::print(
           "{}: e_A {:.3f} %  e_<5% {:.2f} %  bias {:+.3f} %  RMSE {:.3f} %  maximum {:.2f} %"
@@ -126,7 +131,8 @@ void add_compare(App& app) {
   CLI::App* command = app.add_command(
       "compare",
       "How image A differs from reference B. Where B is N times smaller, A is read at every N-th "
-      "pixel from floor(N/2). NaN pixels are left out.",
+      "pixel from floor(N/2). NaN pixels are left out; equal infinities are equal, one-sided ones "
+      "are counted.",
       [c, &app] {
         c->quiet = app.quiet;
         return run_compare(*c);

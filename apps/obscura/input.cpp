@@ -58,7 +58,13 @@ Status InputOptions::load(const std::string& path, const tools::ProjectionMatrix
   options.layers = needs.given ? static_cast<int>(Occluder::kLayersRange.max) : needs.layers;
   input->normal_use = options.normals == "none" ? NormalUse::kNone : NormalUse::kAuto;
   if (projection) options.projection_matrix = *projection;
-  return tools::load_depth_input(path, options, &input->rendering.gbuffer);
+  if (Status s = tools::load_depth_input(path, options, &input->rendering.gbuffer); !s.ok()) {
+    return s;
+  }
+  for (const std::string& note : input->rendering.gbuffer.notes) {
+    fmt::print(stderr, "obscura: note: {}\n", note);
+  }
+  return {};
 }
 
 Status InputOptions::render(const std::string& path, const LayerNeeds& needs, int threads,

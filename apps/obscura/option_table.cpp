@@ -12,7 +12,7 @@ std::string option_name(std::string field) {
 
 void OptionTable::declare_field(const std::string& label, const Field& field,
                                 const std::string& expected, const std::string& default_value,
-                                bool flag) {
+                                bool flag, bool repeatable) {
   Option& option = options_[field.name];
   if (option.labels.empty()) {
     order_.push_back(field.name);
@@ -20,6 +20,7 @@ void OptionTable::declare_field(const std::string& label, const Field& field,
     option.expected = expected;
     option.unit = field.unit;
     option.flag = flag;
+    option.repeatable = repeatable;
   }
   option.labels.push_back(label);
   for (auto& [value, labels] : option.defaults) {
@@ -56,6 +57,9 @@ void OptionTable::add_to(CLI::App* command, const std::string& group) {
                                                     option.text, help_text(option))
                                 : command->add_option("--" + name, option.text, help_text(option));
     if (!option.flag) option.option->type_name("");
+    if (option.repeatable) {
+      option.option->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
+    }
     option.option->group(group);
   }
 }

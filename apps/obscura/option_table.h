@@ -25,8 +25,9 @@ class OptionTable {
     if (std::find(labels_.begin(), labels_.end(), label) == labels_.end()) labels_.push_back(label);
     visit_fields(defaults, [&](const auto& value, const Field& field) {
       using T = std::remove_cvref_t<decltype(value)>;
-      declare_field(label, field, expected_text<T>(field), write_setting(value),
-                    std::is_same_v<T, bool>);
+      declare_field(
+          label, field, expected_text<T>(field), write_setting(value), std::is_same_v<T, bool>,
+          requires { SettingText<T>::repeatable; });
     });
   }
 
@@ -72,12 +73,12 @@ class OptionTable {
     std::string text;
     std::vector<std::string> labels;
     std::string help, expected, unit;
-    bool flag = false;
+    bool flag = false, repeatable = false;
     std::vector<std::pair<std::string, std::string>> defaults;  // value, labels
   };
 
   void declare_field(const std::string& label, const Field& field, const std::string& expected,
-                     const std::string& default_value, bool flag);
+                     const std::string& default_value, bool flag, bool repeatable);
   std::string help_text(const Option& option) const;
 
   std::vector<std::string> labels_;

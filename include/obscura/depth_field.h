@@ -34,11 +34,14 @@ struct DepthLayer {
   ImageView<const float> back;
 };
 
+// Linear depth that no scene has, in any unit: renderers write 1e10, 1e30 or 3.4e38 for "nothing".
+inline constexpr float kNoDepth = 1e9f;
+
 // What a renderer hands over. The views stay the caller's and are read during the call only.
 //
-// Depth is positive; +inf, NaN and anything at or beyond the far plane are background, which
-// occludes nothing and receives nothing (its visibility is 1). A depth that is zero, negative or
-// -inf is refused with its pixel's coordinates.
+// Depth is positive; +inf, NaN, anything at or beyond the far plane and linear depths of kNoDepth
+// and beyond are background, which occludes nothing and receives nothing (its visibility is 1). A
+// depth that is zero, negative or -inf is refused with its pixel's coordinates.
 struct DepthField {
   ImageView<const float> depth{};  // whole image, guard band included; 1..65535 px a side
   DepthKind depth_kind = DepthKind::kLinear;

@@ -136,7 +136,7 @@ Status choose_normals(const std::string& path, const ExrHeader& header,
                       const DepthFileOptions& options, const std::string& depth,
                       std::string names[3]) {
   const std::string& wanted = options.normals;
-  if (wanted == "none") return {};
+  if (wanted == "none" || wanted == "depth") return {};
   if (wanted != "auto") {
     if (find_vector(header, wanted, names)) return {};
     return invalid_input(fmt::format("{}: no channels {}.X, {}.Y, {}.Z (normals); it has {}", path,
@@ -170,6 +170,37 @@ bool looks_like_back_depth(const std::string& channel) {
   std::string name = lower(channel);
   const auto at = name.find("back");
   return at != std::string::npos && looks_like_depth(name.erase(at, 4));
+}
+
+Status choose_exr_part(const std::string& path, const std::vector<ExrHeader>& parts,
+                       const DepthFileOptions& options, int* part) {
+  double number = -1;
+  const bool numbered = parse_number(options.part, &number);
+  std::string list;
+  for (const ExrHeader& p : parts) {
+    const bool named = !p.part_name.empty() && p.part_name == options.part;
+    if (named || (numbered && number == p.part)) {
+      *part = p.part;
+      return {};
+    }
+    list += fmt::format("{}{}{} ({})", list.empty() ? "" : ", ", p.part,
+                        p.part_name.empty() ? "" : " " + p.part_name, channel_list(p));
+  }
+  if (!options.part.empty()) {
+    return invalid_input(
+        fmt::format("{}: no part '{}'; its parts are {}", path, options.part, list));
+  }
+  for (const ExrHeader& p : parts) {
+    std::string depth;
+    if (!choose_depth(path, p, options.depth_channel, &depth).ok()) continue;
+    *part = p.part;
+    return {};
+  }
+  *part = 0;
+  if (parts.size() == 1) return {};  // what is wrong is said by choose_exr_channels
+  return invalid_input(
+      fmt::format("{}: none of its parts has depth; name a channel with depth-channel; they are {}",
+                  path, list));
 }
 
 Status choose_exr_channels(const std::string& path, const ExrHeader& header,

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <sstream>
 
 #include "fmt/format.h"
+#include "io/images/background.h"
+#include "io/images/depth_camera.h"
 #include "io/images/exr_camera.h"
 #include "io/images/files.h"
+#include "io/images/normal_check.h"
 #include "io/images/pfm.h"
 #include "io/images/png.h"
 
@@ -16,6 +17,7 @@ namespace obscura::tools {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
 // The visible size and the guard band of an image of `width` x `height` in all.
 Status split_guard_band(const std::string& path, const GuardBandSpec& spec, DepthInput* input) {
@@ -34,112 +36,6 @@ Status split_guard_band(const std::string& path, const GuardBandSpec& spec, Dept
                                      path, x, y, input->width, input->height));
   }
   input->guard_band = GuardBand::symmetric(x, y);
-  return {};
-}
-
-Status read_projection(const std::string& path, double matrix[16]) {
-  std::string text;
-  if (Status s = read_bytes(path, &text, 1 << 16); !s.ok()) return s;
-  for (char& c : text) {
-    if (c == ',' || c == ';' || c == '[' || c == ']') c = ' ';
-  }
-  std::istringstream in(text);
-  std::string word;
-  int count = 0;
-  for (; in >> word; ++count) {
-    if (count == 16 || !parse_number(word, &matrix[count])) {
-      count = -1;
-      break;
-    }
-  }
-  if (count == 16) return {};
-  return invalid_input(fmt::format(
-      "{}: a projection file holds exactly 16 numbers, row-major, for column vectors", path));
-}
-
-// Near and far planes of a perspective or parallel matrix whose depth runs from 0 to 1.
-void planes_of(const double m[16], DepthKind kind, double* near, double* far) {
-  const bool perspective = m[14] != 0;
-  const double w = perspective ? -m[14] : m[15];
-  // ndc = -a + b / d (perspective) or -a d + b (parallel).
-  const double a = m[10] / w, b = m[11] / w;
-  auto depth_at = [&](double ndc) { return perspective ? b / (ndc + a) : (b - ndc) / a; };
-  const bool reversed = kind == DepthKind::kNdcReversed;
-  *near = depth_at(reversed ? 1 : 0);
-  *far = depth_at(reversed ? 0 : 1);
-  if (!(std::abs(*far) < 1e30)) *far = std::numeric_limits<double>::infinity();
-}
-
-bool positive(double v) { return v > 0 && std::isfinite(v); }
-
-Status must_be_positive(const char* option, double v) {
-  return invalid_argument(fmt::format("{} is {}; it must be in (0, inf)", option, v));
-}
-
-bool gives_camera(const DepthFileOptions& o) {
-  return o.fov_y || o.ortho_height || o.focal_length || o.sensor_height || !o.projection.empty() ||
-         o.projection_matrix;
-}
-
-// The camera that the options say.
-Status set_camera(const std::string& path, const DepthFileOptions& o, DepthInput* input) {
-  const GuardBand& g = input->guard_band;
-  const int w = input->width - g.left - g.right, h = input->height - g.top - g.bottom;
-  const bool lens = o.focal_length || o.sensor_height;
-  const bool projection = o.projection_matrix || !o.projection.empty();
-  const int given = o.fov_y.has_value() + o.ortho_height.has_value() + lens +
-                    o.projection_matrix.has_value() + !o.projection.empty();
-  if (given > 1) {
-    return invalid_argument(
-        "fov-y, ortho-height, focal-length with sensor-height, and projection exclude each other");
-  }
-  if (o.fov_y) {
-    if (!(*o.fov_y > 0 && *o.fov_y < 180)) {
-      return invalid_argument(fmt::format("fov-y is {}; it must be in (0, 180) degrees", *o.fov_y));
-    }
-    input->camera =
-        Camera::perspective(static_cast<float>(*o.fov_y * std::numbers::pi / 180), w, h, g);
-  } else if (o.ortho_height) {
-    if (!positive(*o.ortho_height)) return must_be_positive("ortho-height", *o.ortho_height);
-    input->camera = Camera::orthographic_height(static_cast<float>(*o.ortho_height), w, h, g);
-  } else if (lens) {
-    if (!o.focal_length || !o.sensor_height) {
-      return invalid_argument("focal-length and sensor-height must be given together");
-    }
-    if (!positive(*o.focal_length)) return must_be_positive("focal-length", *o.focal_length);
-    if (!positive(*o.sensor_height)) return must_be_positive("sensor-height", *o.sensor_height);
-    input->camera = Camera::perspective_sensor(static_cast<float>(*o.focal_length),
-                                               static_cast<float>(*o.sensor_height), w, h, g);
-  } else if (projection) {
-    double matrix[16];
-    const std::string& source = o.projection_matrix ? path : o.projection;
-    if (o.projection_matrix) {
-      std::copy(o.projection_matrix->begin(), o.projection_matrix->end(), matrix);
-    } else if (Status s = read_projection(o.projection, matrix); !s.ok()) {
-      return s;
-    }
-    if (Status s = Camera::from_projection(matrix, w, h, g, &input->camera); !s.ok()) {
-      return {s.code(), fmt::format("{}: {}", source, s.message())};
-    }
-    const bool ndc = o.depth_kind == DepthKind::kNdc || o.depth_kind == DepthKind::kNdcReversed;
-    if (ndc && (!o.near || !o.far)) {
-      double near, far;
-      planes_of(matrix, o.depth_kind, &near, &far);
-      if (!positive(near) || !(far > near)) {
-        return invalid_input(
-            fmt::format("{}: its planes, near {:.4g} and far {:.4g}, do not suit depth-kind {}; "
-                        "choose the other kind, or give near and far",
-                        source, near, far, enum_name(o.depth_kind)));
-      }
-      if (!o.near) input->near_plane = static_cast<float>(near);
-      if (!o.far) input->far_plane = static_cast<float>(far);
-    }
-  } else {
-    return invalid_argument(
-        fmt::format("{} does not say what its camera is; give fov-y, "
-                    "ortho-height, focal-length with sensor-height, or projection",
-                    path));
-  }
   return {};
 }
 
@@ -171,37 +67,68 @@ Status check_whole_window(const std::string& path, const PixelWindow& data,
                   data.width(), data.height(), whole.width(), whole.height()));
 }
 
-Status load_exr(const std::string& path, const DepthFileOptions& o, DepthInput* input) {
-  ExrHeader header;
-  if (Status s = read_exr_header(path, &header); !s.ok()) return s;
-  ExrChannelChoice choice;
-  if (Status s = choose_exr_channels(path, header, o, &choice); !s.ok()) return s;
-  const bool normals = !choice.normals[0].empty();
-  const bool world_normals = normals && o.normal_space == NormalSpace::kWorld;
-  if (world_normals && !header.world_to_camera) {
-    return invalid_input(fmt::format(
-        "{}: world-space normals need the attribute worldToCamera, which it lacks", path));
+// Stored values to depth: what means nothing, unit and kind.
+Status settle_depth(const DepthFileOptions& o, bool half_floats, DepthInput* input) {
+  const bool metric =
+      o.depth_kind == FileDepthKind::kLinear || o.depth_kind == FileDepthKind::kDistance;
+  const NothingThere nothing{o.background, o.invalid, metric, half_floats};
+  if (Status s = settle_background(nothing, input); !s.ok()) return s;
+  if (o.depth_scale && !metric) {
+    return invalid_argument(
+        fmt::format("depth-scale is for depth-kind linear and distance; depth-kind {} has no unit",
+                    enum_name(o.depth_kind)));
   }
+  auto change = [&](auto f) {
+    for (float& v : input->depth) v = static_cast<float>(f(v));
+    for (float& v : input->back_depth) v = static_cast<float>(f(v));
+    for (DepthInput::Layer& layer : input->layers) {
+      for (float& v : layer.front) v = static_cast<float>(f(v));
+      for (float& v : layer.back) v = static_cast<float>(f(v));
+    }
+  };
+  if (o.depth_scale) change([&](double v) { return v * *o.depth_scale; });
+  if (o.depth_kind == FileDepthKind::kInverse) {
+    change([](double v) { return v > 0 ? 1 / v : kInf; });
+  } else if (o.depth_kind == FileDepthKind::kLogarithmic) {
+    if (!o.far || !std::isfinite(*o.far)) {
+      return invalid_argument("depth-kind logarithmic needs far, the camera's far plane");
+    }
+    const double full = std::log2(1 + *o.far);
+    change([&](double v) { return v < 1 ? std::exp2(v * full) - 1 : kInf; });
+  } else {
+    input->depth_kind = static_cast<DepthKind>(o.depth_kind);
+  }
+  return {};
+}
+
+// How depth layers and channels of the chosen part are named.
+std::string layer_channel(int k, const char* end) { return fmt::format("layer{}.{}", k + 1, end); }
+
+// What an EXR file has beside its pixels that later steps need.
+struct ExrSource {
+  ExrHeader header;
+  ExrChannelChoice choice;
+  bool blender = false;  // its normals are in world space, without a matrix in the file
+  bool half_depth = false;
+};
+
+Status read_flat(const std::string& path, const DepthFileOptions& o, ExrSource* source,
+                 DepthInput* input) {
+  ExrHeader& header = source->header;
+  const ExrChannelChoice& choice = source->choice;
+  const bool normals = !choice.normals[0].empty();
   std::vector<std::string> wanted{choice.depth};
   if (!choice.back_depth.empty()) wanted.push_back(choice.back_depth);
   if (normals) wanted.insert(wanted.end(), std::begin(choice.normals), std::end(choice.normals));
-  auto layer_channel = [](int k, const char* end) { return fmt::format("layer{}.{}", k + 1, end); };
   int layers = 0;
   while (layers < o.layers && header.find(layer_channel(layers, "Z")) &&
          header.find(layer_channel(layers, "ZBack"))) {
     wanted.push_back(layer_channel(layers, "Z"));
     wanted.push_back(layer_channel(layers++, "ZBack"));
   }
-  const PixelWindow whole = header.whole_window();
-  if (Status s = check_whole_window(path, header.data_window, whole); !s.ok()) return s;
   Image image;
-  if (Status s = read_exr(path, wanted, &header, &image); !s.ok()) return s;
-
-  const PixelWindow& display = header.display_window;
-  input->width = whole.width();
-  input->height = whole.height();
-  input->guard_band = {display.min_x - whole.min_x, whole.max_x - display.max_x,
-                       display.min_y - whole.min_y, whole.max_y - display.max_y};
+  if (Status s = read_exr(path, wanted, &header, &image, header.part); !s.ok()) return s;
+  const PixelWindow whole = header.whole_window();
   auto take = [&](const std::string& name) {
     for (Image::Channel& c : image.channels) {
       if (c.name != name) continue;
@@ -219,6 +146,113 @@ Status load_exr(const std::string& path, const DepthFileOptions& o, DepthInput* 
   for (int k = 0; k < layers; ++k) {
     input->layers.push_back({take(layer_channel(k, "Z")), take(layer_channel(k, "ZBack"))});
   }
+  return {};
+}
+
+// A deep image is depth layers: the first is depth and back depth too.
+Status read_deep(const std::string& path, const DepthFileOptions& o, const ExrHeader& header,
+                 DepthInput* input) {
+  std::vector<DeepLayer> layers;
+  if (Status s = read_exr_deep(path, header.part, std::max(o.layers, 1), &layers); !s.ok()) {
+    return s;
+  }
+  if (layers.empty()) {
+    return invalid_input(fmt::format("{}: a deep image without a single sample", path));
+  }
+  const PixelWindow whole = header.whole_window();
+  for (DeepLayer& layer : layers) {
+    input->layers.push_back({over_whole(std::move(layer.front), header.data_window, whole),
+                             over_whole(std::move(layer.back), header.data_window, whole)});
+  }
+  input->depth = input->layers[0].front;
+  if (header.find("ZBack")) {
+    input->back_depth = input->layers[0].back;
+  } else {
+    input->layers.clear();
+  }
+  return {};
+}
+
+Status read_exr_source(const std::string& path, const DepthFileOptions& o, ExrSource* source,
+                       DepthInput* input) {
+  std::vector<ExrHeader> parts;
+  if (Status s = read_exr_headers(path, &parts); !s.ok()) return s;
+  int part = 0;
+  if (Status s = choose_exr_part(path, parts, o, &part); !s.ok()) return s;
+  source->header = parts[part];
+  const ExrHeader& header = source->header;
+  if (parts.size() > 1) {
+    input->notes.push_back(fmt::format("{}: of its {} parts, number {}{} is read (--part)", path,
+                                       parts.size(), part,
+                                       header.part_name.empty() ? "" : ", " + header.part_name));
+  }
+  if (Status s = choose_exr_channels(path, header, o, &source->choice); !s.ok()) return s;
+  for (const std::string& name : header.attributes) {
+    source->blender |= name == "BlenderMultiChannel" || name.starts_with("cycles.");
+  }
+  const auto* depth = header.find(source->choice.depth);
+  source->half_depth = depth && depth->type == "half";
+  const PixelWindow whole = header.whole_window();
+  if (Status s = check_whole_window(path, header.data_window, whole); !s.ok()) return s;
+  const PixelWindow& display = header.display_window;
+  input->width = whole.width();
+  input->height = whole.height();
+  input->guard_band = {display.min_x - whole.min_x, whole.max_x - display.max_x,
+                       display.min_y - whole.min_y, whole.max_y - display.max_y};
+  if (header.deep) return read_deep(path, o, header, input);
+  return read_flat(path, o, source, input);
+}
+
+// Normals of the file to eye space, as far as options and attributes say how; the rest is checked.
+Status settle_normals(const std::string& path, const DepthFileOptions& o, const ExrSource& source,
+                      bool looks_along_plus_z, DepthInput* input) {
+  if (input->normal_x.empty()) return {};
+  const std::string names = fmt::format("{}, {}, {}", source.choice.normals[0],
+                                        source.choice.normals[1], source.choice.normals[2]);
+  const bool world = o.normal_space == NormalSpace::kWorld || !o.world_to_camera.empty();
+  if (o.normals_packed) {
+    for (auto* n : {&input->normal_x, &input->normal_y, &input->normal_z}) {
+      for (float& v : *n) v = 2 * v - 1;
+    }
+  }
+  if (!world && source.blender && o.normal_space == NormalSpace::kAuto) {
+    for (auto* n : {&input->normal_x, &input->normal_y, &input->normal_z}) n->clear();
+    input->notes.push_back(
+        fmt::format("{}: written by Blender, whose normals ({}) are in world space; normals from "
+                    "depth are used "
+                    "instead; --world-to-camera FILE makes use of the file's",
+                    path, names));
+    return {};
+  }
+  if (world) {
+    ExrHeader::Matrix m;
+    if (!o.world_to_camera.empty()) {
+      double column[16];
+      if (Status s = read_matrix(o.world_to_camera, "a world-to-camera file", column); !s.ok()) {
+        return s;
+      }
+      // OpenEXR's are for row vectors.
+      for (int i = 0; i < 16; ++i) m[i] = column[i % 4 * 4 + i / 4];
+      looks_along_plus_z = false;
+    } else if (source.header.world_to_camera) {
+      m = *source.header.world_to_camera;
+    } else {
+      return invalid_input(
+          fmt::format("{}: world-space normals need --world-to-camera FILE or the "
+                      "attribute worldToCamera, which it lacks",
+                      path));
+    }
+    normals_to_eye_space(m, looks_along_plus_z, input);
+  }
+  if (o.normal_space == NormalSpace::kView && !world) return {};
+  return check_normals(names, world, input);
+}
+
+Status load_exr(const std::string& path, const DepthFileOptions& o, DepthInput* input) {
+  ExrSource source;
+  if (Status s = read_exr_source(path, o, &source, input); !s.ok()) return s;
+  const ExrHeader& header = source.header;
+  if (Status s = settle_depth(o, source.half_depth, input); !s.ok()) return s;
   if (o.guard_band) {
     if (input->guard_band != GuardBand()) {
       return invalid_argument(fmt::format(
@@ -229,25 +263,27 @@ Status load_exr(const std::string& path, const DepthFileOptions& o, DepthInput* 
   ExrCamera camera;
   const bool known = header.world_to_camera && header.world_to_ndc;
   Status derived;
-  if (known) derived = camera_from_exr(path, header, whole, &camera);
-  if (world_normals) {
-    normals_to_eye_space(*header.world_to_camera, camera.looks_along_plus_z, input);
-  }
+  if (known) derived = camera_from_exr(path, header, header.whole_window(), &camera);
   if (known && !gives_camera(o)) {
+    if (!derived.ok()) return derived;
     input->camera = camera.camera;
-    return derived;
+  } else if (Status s = set_camera(path, o, input); !s.ok()) {
+    return s;
   }
-  return set_camera(path, o, input);
+  return settle_normals(path, o, source, camera.looks_along_plus_z, input);
 }
 
 Status check_exr_only(const std::string& path, const DepthFileOptions& o) {
-  const char* option = !o.depth_channel.empty()                     ? "depth-channel"
-                       : !o.back_depth_channel.empty()              ? "back-depth-channel"
-                       : o.normals != "auto" && o.normals != "none" ? "normals"
-                                                                    : nullptr;
+  const char* option = !o.depth_channel.empty()        ? "depth-channel"
+                       : !o.back_depth_channel.empty() ? "back-depth-channel"
+                       : !o.part.empty()               ? "part"
+                       : !o.world_to_camera.empty()    ? "world-to-camera"
+                       : o.normals != "auto" && o.normals != "none" && o.normals != "depth"
+                           ? "normals"
+                           : nullptr;
   if (!option) return {};
   return invalid_argument(
-      fmt::format("{} is not an EXR file; {} names channels of one", path, option));
+      fmt::format("{} is not an EXR file; {} is for channels of one", path, option));
 }
 
 Status load_pfm(const std::string& path, const DepthFileOptions& o, DepthInput* input) {
@@ -262,10 +298,10 @@ Status load_pfm(const std::string& path, const DepthFileOptions& o, DepthInput* 
   input->width = image.width;
   input->height = image.height;
   input->depth = std::move(image.channels[0].values);
-  return {};
+  return settle_depth(o, false, input);
 }
 
-// PNG: near + v / 65535 (far - near), or NDC as it is; 65535 is background.
+// PNG: near + v / 65535 (far - near), v times depth-scale, or NDC as it is; 65535 is background.
 Status load_png(const std::string& path, const DepthFileOptions& o, DepthInput* input) {
   if (Status s = check_exr_only(path, o); !s.ok()) return s;
   std::string bytes;
@@ -280,14 +316,27 @@ Status load_png(const std::string& path, const DepthFileOptions& o, DepthInput* 
   input->width = image.width;
   input->height = image.height;
   input->depth = std::move(image.channels[0].values);
-  const bool ndc = o.depth_kind == DepthKind::kNdc || o.depth_kind == DepthKind::kNdcReversed;
-  if (ndc) return {};
-  if (!o.near || !o.far || !(*o.far > *o.near) || !std::isfinite(*o.far)) {
-    return invalid_argument(
-        fmt::format("{}: a PNG depth image needs near and far, with near < far < inf", path));
+  const bool metric =
+      o.depth_kind == FileDepthKind::kLinear || o.depth_kind == FileDepthKind::kDistance;
+  if (!metric) return settle_depth(o, false, input);
+  // As stored, in whole numbers: that is what background and invalid name.
+  for (float& v : input->depth) v = v >= 1 ? kNan : std::round(v * 65535);
+  if (o.depth_scale) {
+    if (o.near) {
+      return invalid_argument("near and depth-scale exclude each other for a PNG");
+    }
+    return settle_depth(o, false, input);
   }
+  if (!o.near || !o.far || !(*o.far > *o.near) || !std::isfinite(*o.far)) {
+    return invalid_argument(fmt::format(
+        "{}: a PNG depth image needs depth-scale, or near and far with near < far < inf", path));
+  }
+  // Black is the near plane, so that no value means nothing by itself.
+  DepthFileOptions named = o;
+  named.background.none = true;
+  if (Status s = settle_depth(named, false, input); !s.ok()) return s;
   for (float& v : input->depth) {
-    v = v >= 1 ? kNan : static_cast<float>(*o.near + v * (*o.far - *o.near));
+    if (v < kInf) v = static_cast<float>(*o.near + v / 65535 * (*o.far - *o.near));
   }
   return {};
 }
@@ -298,8 +347,8 @@ Status load_depth_input(const std::string& path, const DepthFileOptions& o, Dept
   const std::string ending = file_ending(path);
   DepthInput loaded;
   loaded.name = path;
-  loaded.depth_kind = o.depth_kind;
   if (o.near) loaded.near_plane = static_cast<float>(*o.near);
+  // The far plane of logarithmic depth is a number of its formula: nothing lies beyond.
   if (o.far) loaded.far_plane = static_cast<float>(*o.far);
   Status status;
   if (ending == ".exr") {
@@ -326,6 +375,19 @@ bool SettingText<std::optional<tools::GuardBandSpec>>::parse(
   if (!SettingText<tools::GuardBandSpec>::parse(text, &spec)) return false;
   *value = spec;
   return true;
+}
+
+bool SettingText<std::optional<tools::Intrinsics>>::parse(std::string_view text,
+                                                          std::optional<tools::Intrinsics>* value) {
+  double v[4];
+  if (!tools::parse_numbers(text, ',', 4, v)) return false;
+  *value = tools::Intrinsics{v[0], v[1], v[2], v[3]};
+  return true;
+}
+
+std::string SettingText<std::optional<tools::Intrinsics>>::write(
+    const std::optional<tools::Intrinsics>& value) {
+  return value ? fmt::format("{},{},{},{}", value->fx, value->fy, value->cx, value->cy) : "";
 }
 
 std::string SettingText<std::optional<tools::GuardBandSpec>>::write(

@@ -25,7 +25,8 @@ struct DepthInput {
   float far_plane = std::numeric_limits<float>::infinity();
   Camera camera;
   GuardBand guard_band;
-  double scene_size = 0;  // S of the conventions, world units; 0 where unknown
+  std::vector<std::string> notes;  // what was found and done on reading, a line each
+  double scene_size = 0;           // S of the conventions, world units; 0 where unknown
 
   // Views of the above; valid while this object lives and is not changed.
   DepthField field() const;

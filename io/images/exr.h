@@ -28,7 +28,7 @@ inline constexpr const char* kOccluderAttribute = "obscuraOccluder";
 // Holds ExrWriteOptions::made_by.
 inline constexpr const char* kMadeByAttribute = "obscuraMadeBy";
 
-// The header of an OpenEXR file (its first part).
+// The header of a part of an OpenEXR file.
 struct ExrHeader {
   struct Channel {
     std::string name;
@@ -38,6 +38,9 @@ struct ExrHeader {
   // 16 numbers, row by row as stored: OpenEXR's matrices act on row vectors, p' = p M.
   using Matrix = std::array<double, 16>;
 
+  int part = 0;           // from 0
+  std::string part_name;  // "" where the file has one part without a name
+  bool deep = false;      // several samples a pixel
   PixelWindow display_window, data_window;
   std::vector<Channel> channels;
   std::optional<Matrix> world_to_camera, world_to_ndc;
@@ -55,11 +58,24 @@ struct ExrHeader {
 // is opened; else every processor does.
 void set_exr_threads(int threads);
 
+// Of the first part.
 Status read_exr_header(const std::string& path, ExrHeader* header);
 
-// The channels that `wanted` names (all for an empty list) over the data window, as floats.
+// Of every part; at most 1024 are read.
+Status read_exr_headers(const std::string& path, std::vector<ExrHeader>* parts);
+
+// The channels that `wanted` names (all for an empty list) over the data window of a part, as
+// floats. A deep part is refused.
 Status read_exr(const std::string& path, const std::vector<std::string>& wanted, ExrHeader* header,
-                Image* image);
+                Image* image, int part = 0);
+
+// Depth layers of a deep part, nearest first, over its data window: samples of Z to ZBack (to Z
+// itself where there is no ZBack), those that touch merged into one. +inf where there are no more.
+struct DeepLayer {
+  std::vector<float> front, back;
+};
+Status read_exr_deep(const std::string& path, int part, int most_layers,
+                     std::vector<DeepLayer>* layers);
 
 struct ExrWriteOptions {
   bool half = false;  // 16-bit floats

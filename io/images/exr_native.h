@@ -40,10 +40,13 @@ Status guard_exr(const std::string& path, F&& f) {
 // type, is found here.
 Status check_exr_attributes(const std::string& path);
 
-// Opens a file, fills `header` from its first part and checks what that part claims against the
+// Opens a file, fills `header` from one of its parts and checks what that part claims against the
 // file's length before anything of that size is allocated. May throw: see guard_exr.
 Status open_exr(const std::string& path, ExrHeader* header,
-                std::unique_ptr<Imf::MultiPartInputFile>* file);
+                std::unique_ptr<Imf::MultiPartInputFile>* file, int part = 0);
+
+// Refuses a part with several samples a pixel.
+Status refuse_deep(const std::string& path, const ExrHeader& header);
 
 // Where pixel (0, 0) of a plane over `window` would lie, as OpenEXR addresses pixels.
 inline char* origin_of(void* pixels, const PixelWindow& window, std::ptrdiff_t pixel_bytes) {

@@ -41,6 +41,8 @@ void set_up_once(int threads = 0) {
 }
 
 void fill_header(const Imf::Header& native, ExrHeader* header) {
+  header->part_name = native.hasName() ? native.name() : "";
+  header->deep = native.hasType() && Imf::isDeepData(native.type());
   header->display_window = from_box(native.displayWindow());
   header->data_window = from_box(native.dataWindow());
   header->channels.clear();
@@ -125,19 +127,22 @@ PixelWindow ExrHeader::whole_window() const {
 void set_exr_threads(int threads) { set_up_once(threads); }
 
 Status open_exr(const std::string& path, ExrHeader* header,
-                std::unique_ptr<Imf::MultiPartInputFile>* file) {
+                std::unique_ptr<Imf::MultiPartInputFile>* file, int part) {
   if (Status s = check_readable(path); !s.ok()) return s;
   set_up_once();
   if (Status s = check_exr_attributes(path); !s.ok()) return s;
   *file = std::make_unique<Imf::MultiPartInputFile>(path.c_str());
-  const Imf::Header& native = (*file)->header(0);
+  const Imf::Header& native = (*file)->header(part);
   fill_header(native, header);
+  header->part = part;
   if (Status s = check_windows(path, *header); !s.ok()) return s;
-  if (native.hasType() && Imf::isDeepData(native.type())) {
-    return invalid_input(
-        fmt::format("{}: its first part is a deep image; it must be flattened first", path));
-  }
   return check_plausible(path, native, *header);
+}
+
+Status refuse_deep(const std::string& path, const ExrHeader& header) {
+  if (!header.deep) return {};
+  return invalid_input(
+      fmt::format("{}: part {} is a deep image; it must be flattened first", path, header.part));
 }
 
 Status read_exr_header(const std::string& path, ExrHeader* header) {
@@ -147,11 +152,29 @@ Status read_exr_header(const std::string& path, ExrHeader* header) {
   });
 }
 
-Status read_exr(const std::string& path, const std::vector<std::string>& wanted, ExrHeader* header,
-                Image* image) {
+Status read_exr_headers(const std::string& path, std::vector<ExrHeader>* parts) {
   return guard_exr(path, [&]() -> Status {
     std::unique_ptr<Imf::MultiPartInputFile> file;
-    if (Status s = open_exr(path, header, &file); !s.ok()) return s;
+    parts->assign(1, {});
+    if (Status s = open_exr(path, &parts->front(), &file); !s.ok()) return s;
+    constexpr int kMostParts = 1024;
+    for (int part = 1; part < std::min(file->parts(), kMostParts); ++part) {
+      ExrHeader& header = parts->emplace_back();
+      fill_header(file->header(part), &header);
+      header.part = part;
+      if (Status s = check_windows(path, header); !s.ok()) return s;
+      if (Status s = check_plausible(path, file->header(part), header); !s.ok()) return s;
+    }
+    return {};
+  });
+}
+
+Status read_exr(const std::string& path, const std::vector<std::string>& wanted, ExrHeader* header,
+                Image* image, int part) {
+  return guard_exr(path, [&]() -> Status {
+    std::unique_ptr<Imf::MultiPartInputFile> file;
+    if (Status s = open_exr(path, header, &file, part); !s.ok()) return s;
+    if (Status s = refuse_deep(path, *header); !s.ok()) return s;
     const PixelWindow& w = header->data_window;
     Image result(w.width(), w.height());
     result.occluder = header->occluder;
@@ -168,9 +191,9 @@ Status read_exr(const std::string& path, const std::vector<std::string>& wanted,
       frame.insert(c.name, Imf::Slice(Imf::FLOAT, origin_of(c.values.data(), w, 4), 4,
                                       static_cast<std::size_t>(w.width()) * 4));
     }
-    Imf::InputPart part(*file, 0);
-    part.setFrameBuffer(frame);
-    part.readPixels(w.min_y, w.max_y);
+    Imf::InputPart input(*file, part);
+    input.setFrameBuffer(frame);
+    input.readPixels(w.min_y, w.max_y);
     *image = std::move(result);
     return {};
   });

@@ -44,6 +44,7 @@ Status read_stored(const std::string& path, const Image& own, ExrHeader* header,
   return guard_exr(path, [&]() -> Status {
     std::unique_ptr<Imf::MultiPartInputFile> file;
     if (Status s = open_exr(path, header, &file); !s.ok()) return s;
+    if (Status s = refuse_deep(path, *header); !s.ok()) return s;
     const PixelWindow& w = header->data_window;
     const std::size_t pixels = static_cast<std::size_t>(w.width()) * w.height();
     for (const ExrHeader::Channel& c : header->channels) {

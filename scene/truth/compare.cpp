@@ -26,20 +26,30 @@ Status compare(const ImageView<const float>& image, const ImageView<const float>
   Comparison c;
   double sum = 0, sum_abs = 0, sum_square = 0;
   double ma = 0, mb = 0, saa = 0, sbb = 0, sab = 0;  // running moments (Welford)
-  std::int64_t within = 0;
+  std::int64_t within = 0, finite = 0;
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
       const int u = x * n + n / 2, v = y * n + n / 2;
       const double a = image(u, v), b = reference(x, y);
       if (std::isnan(a) || std::isnan(b) || (!mask.empty() && !std::isfinite(mask(u, v)))) continue;
+      if (a != b && (std::isinf(a) || std::isinf(b))) {
+        ++c.infinite;
+        continue;
+      }
+      if (std::isinf(a)) {  // in both: no difference, and no moments
+        ++c.pixels;
+        ++within;
+        continue;
+      }
       const double d = a - b;
+      ++finite;
       ++c.pixels;
       sum += d;
       sum_abs += std::abs(d);
       sum_square += d * d;
       within += std::abs(d) < 0.05;
       c.maximum = std::max(c.maximum, std::abs(d));
-      const double k = 1.0 / static_cast<double>(c.pixels);
+      const double k = 1.0 / static_cast<double>(finite);
       const double da = a - ma, db = b - mb;
       ma += da * k;
       mb += db * k;
@@ -47,6 +57,10 @@ Status compare(const ImageView<const float>& image, const ImageView<const float>
       sbb += db * (b - mb);
       sab += da * (b - mb);
     }
+  }
+  if (c.pixels == 0 && c.infinite > 0) {
+    return invalid_input(
+        fmt::format("every pixel is infinite in one of the images only ({} pixels)", c.infinite));
   }
   if (c.pixels == 0) return invalid_input("the images have no pixel to compare");
   const double k = 100.0 / static_cast<double>(c.pixels);

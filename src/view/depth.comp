@@ -28,5 +28,5 @@ void main() {
   }
   if (kDepthKind == 2) d = from_ndc(1.0 - v, v);
   if (kDepthKind == 3) d = from_ndc(v, 1.0 - v);
-  depth[p.y * view.width + p.x] = d > 0.0 && d < view.far_plane ? d : kInf;
+  depth[p.y * view.width + p.x] = d > 0.0 && d < min(view.far_plane, kFarthestDepth) ? d : kInf;
 }

@@ -1,6 +1,8 @@
 // Leaf functions, C++ and GLSL: see math/leaf-inl.h; after math/azimuth_leaf.h. Linear depth from
 // other kinds of depth (DepthKind).
 
+const float kFarthestDepth = 1e9f;  // obscura::kNoDepth: from here on nothing is there
+
 // From the distance along the ray (a, b, -1).
 LEAF(Real) depth_of_distance(Real distance, Real a, Real b) {
   return distance / length_of_ray(a, b);

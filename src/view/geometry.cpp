@@ -94,7 +94,11 @@ void choose_matter(DepthField* field, Needs* needs) {
 class DepthConversion {
  public:
   explicit DepthConversion(const DepthField& f)
-      : camera_(f.camera), kind_(f.depth_kind), near_(f.near_plane), far_(f.far_plane) {}
+      : camera_(f.camera),
+        kind_(f.depth_kind),
+        near_(f.near_plane),
+        far_(std::min(f.far_plane, leaf_scalar::kFarthestDepth)),
+        far_plane_(f.far_plane) {}
 
   void row(const float* in, std::ptrdiff_t step, int width, int y, float* out) const {
     switch (kind_) {
@@ -129,14 +133,14 @@ class DepthConversion {
     if (std::isinf(forward)) return forward > 0 && kind_ == DepthKind::kNdc ? kInf : kNan;
     if (!(reversed >= 0 && forward >= 0)) return kNan;
     if (reversed <= 0) return kInf;
-    return leaf_scalar::depth_of_ndc(reversed, forward, near_, far_, camera_.orthographic,
-                                     std::isinf(far_));
+    return leaf_scalar::depth_of_ndc(reversed, forward, near_, far_plane_, camera_.orthographic,
+                                     std::isinf(far_plane_));
   }
 
   static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const Camera camera_;
   const DepthKind kind_;
-  const float near_, far_;
+  const float near_, far_, far_plane_;  // far_: where nothing is any more
 };
 
 Status bad_depth(const DepthField& field, const ImageView<const float>& image, const char* name,

@@ -218,7 +218,7 @@ TEST_F(CommandTest, InputMistakesAreNamed) {
   expect_failure("ao short.pfm --fov-y 50 -o x.exr", 3, "truncated");
   write("zero.pfm", pfm(0, 0, {}));
   expect_failure("ao zero.pfm --fov-y 50 -o x.exr", 3, "0x0");
-  write("negative.pfm", pfm(2, 1, {1, -1}));
+  write("negative.pfm", pfm(3, 1, {1, -1, -2}));
   expect_failure("ao negative.pfm --fov-y 50 -o x.exr", 3, "pixel (1, 0) is -1");
   write("noise.png", "\x89PNG\r\n\x1a\n rubbish");
   expect_failure("ao noise.png --near 1 --far 2 --fov-y 50 -o x.exr", 3, "noise.png");

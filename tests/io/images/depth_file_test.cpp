@@ -188,7 +188,7 @@ TEST_F(FilesTest, PlanesComeFromTheProjection) {
     write("p.txt", c.matrix);
     DepthFileOptions o;
     o.projection = path("p.txt");
-    o.depth_kind = c.kind;
+    o.depth_kind = static_cast<FileDepthKind>(c.kind);
     DepthInput input;
     const Status s = load_depth_input(path("d.pfm"), o, &input);
     ASSERT_TRUE(s.ok()) << s.message();
@@ -203,7 +203,7 @@ TEST_F(FilesTest, PlanesComeFromTheProjection) {
     EXPECT_EQ(input.near_plane, 0.25f);
     // The other kind of depth does not go with this matrix.
     o.near = {};
-    o.depth_kind = c.kind == DepthKind::kNdc ? DepthKind::kNdcReversed : DepthKind::kNdc;
+    o.depth_kind = c.kind == DepthKind::kNdc ? FileDepthKind::kNdcReversed : FileDepthKind::kNdc;
     EXPECT_FALSE(load_depth_input(path("d.pfm"), o, &input).ok());
   }
 }

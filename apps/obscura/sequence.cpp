@@ -164,7 +164,7 @@ Status SequenceOptions::check(const std::string& input, const std::string& outpu
 Status SequenceOptions::run_one(const std::string& input, const std::string& output, bool quiet,
                                 const std::string& json, const MakeFrame& make) const {
   if (Status s = check(input, output); !s.ok()) return s;
-  const std::unique_ptr<CommandFrame> frame = make({input, output, nullptr, ""});
+  const std::unique_ptr<CommandFrame> frame = make({input, output, nullptr, "", {}});
   {
     tools::ProgressBar bar(command_->get_name(), !quiet);
     const Status s = tools::run_frame(frame.get(), [&](double share) { return bar(share); });
@@ -194,7 +194,7 @@ Status SequenceOptions::run(const std::string& input, const std::string& output,
     if (tools::interrupted()) return interrupted_status();
     const int number = plan.frames[static_cast<std::size_t>(index)];
     FrameFiles files{tools::name_of_frame(input, number), tools::name_of_frame(output, number),
-                     nullptr, settings};
+                     nullptr, settings, number};
     if (!plan.cameras.empty()) {
       files.projection = &plan.cameras[static_cast<std::size_t>(index)];
       for (double v : *files.projection) files.made_by += fmt::format(" {:.9g}", v);

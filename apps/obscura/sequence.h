@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct FrameFiles {
   std::string input, output;
   const tools::ProjectionMatrix* projection = nullptr;  // of --cameras
   std::string made_by;                                  // "" where it is alone
+  std::optional<int> number{};                          // the frame's, in a sequence
 };
 
 // A frame of a command.

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "apps/obscura/option_table.h"
+#include "apps/obscura/sequence.h"
 #include "apps/obscura/volume_input.h"
+#include "io/images/files.h"
 #include "io/images/image.h"
 #include "scene/volumes/volume_light.h"
 #include "scene/volumes/volume_picture.h"
@@ -76,6 +78,7 @@ void visit_fields(Self& s, Visitor&& v) {
 struct VolumeCommand {
   std::string input, output, outputs, light, fields, json;
   VolumeInputOptions volume;
+  SequenceOptions sequence;
   OptionTable table;
   int threads = 0;
   bool half = false;
@@ -101,11 +104,16 @@ struct VolumePictures {
 
 // Mean over the pixels that the surface covers, background taken out of those it covers partly.
 double mean_visibility(const VolumePictures& pictures);
-Status write_volume_picture(const VolumeCommand& command, const VolumeRequest& request,
-                            VolumePictures pictures);
-Status write_volume_fields(const VolumeCommand& command, FieldsKind kind,
+Status write_volume_picture(const std::string& path, const tools::WriteOptions& write,
+                            const VolumeRequest& request, VolumePictures pictures);
+Status write_volume_fields(const std::string& path, FieldsKind kind,
                            const tools::VolumeImage& image, const std::vector<float>& distance,
                            const VisibilityField& field, const RunOptions& run);
+
+// A picture of an isosurface, its fields, or both. All but the files last as long as the frame.
+std::unique_ptr<CommandFrame> make_volume_frame(const VolumeCommand& command,
+                                                const VolumeRequest& request, Executor* executor,
+                                                bool quiet, FrameFiles files);
 
 }  // namespace app
 }  // namespace obscura

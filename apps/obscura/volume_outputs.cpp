@@ -8,9 +8,9 @@
 
 namespace obscura::app {
 
-Status write_volume_fields(const VolumeCommand& c, FieldsKind kind, const tools::VolumeImage& image,
-                           const std::vector<float>& distance, const VisibilityField& field,
-                           const RunOptions& run) {
+Status write_volume_fields(const std::string& path, FieldsKind kind,
+                           const tools::VolumeImage& image, const std::vector<float>& distance,
+                           const VisibilityField& field, const RunOptions& run) {
   tools::FieldGrid grid;
   std::vector<tools::NamedField> fields;
   const tools::Double3 h = image.spacing();
@@ -36,8 +36,8 @@ Status write_volume_fields(const VolumeCommand& c, FieldsKind kind, const tools:
       }
     }
   }
-  return tools::file_ending(c.fields) == ".vdb" ? tools::write_vdb(c.fields, grid, fields)
-                                                : tools::write_nrrd(c.fields, grid, fields);
+  return tools::file_ending(path) == ".vdb" ? tools::write_vdb(path, grid, fields)
+                                            : tools::write_nrrd(path, grid, fields);
 }
 
 // Mean over the pixels that the surface covers, background taken out of those it covers partly.
@@ -52,13 +52,12 @@ double mean_visibility(const VolumePictures& pictures) {
   return covered > 0 ? sum / covered : NAN;
 }
 
-Status write_volume_picture(const VolumeCommand& c, const VolumeRequest& p, VolumePictures all) {
-  tools::WriteOptions write;
-  write.half = c.half;
+Status write_volume_picture(const std::string& path, const tools::WriteOptions& write,
+                            const VolumeRequest& p, VolumePictures all) {
   const float gamma = float(p.gamma);
   if (p.picture) {
     return tools::write_image(
-        c.output,
+        path,
         tools::picture_of_light(all.visibility, all.coverage, p.settings.picture.colours, gamma),
         write);
   }
@@ -69,7 +68,7 @@ Status write_volume_picture(const VolumeCommand& c, const VolumeRequest& p, Volu
   if (p.visibility) result.add("visibility") = std::move(all.visibility.channels[0].values);
   if (p.coverage) result.add("coverage") = std::move(all.coverage.channels[0].values);
   if (p.depth) result.add("depth") = std::move(all.depth.channels[0].values);
-  return tools::write_image(c.output, result, write);
+  return tools::write_image(path, result, write);
 }
 
 }  // namespace obscura::app

@@ -38,7 +38,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
 }  // namespace
 
 Status write_gbuffer(const std::string& path, const DepthInput& input, const ViewSpec& view,
-                     bool half_normals) {
+                     bool half_normals, const std::string& made_by) {
   if (file_ending(path) != ".exr") {
     return invalid_argument(fmt::format("'{}' cannot hold a G-buffer; it must end in .exr", path));
   }
@@ -58,6 +58,7 @@ Status write_gbuffer(const std::string& path, const DepthInput& input, const Vie
   const GuardBand& g = input.guard_band;
   const int width = input.width - g.left - g.right, height = input.height - g.top - g.bottom;
   ExrWriteOptions options;
+  options.made_by = made_by;
   options.display_window = PixelWindow{0, 0, width - 1, height - 1};
   options.data_window = PixelWindow{-g.left, -g.top, width + g.right - 1, height + g.bottom - 1};
   options.world_to_camera = world_to_camera(view);

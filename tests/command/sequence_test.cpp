@@ -195,6 +195,36 @@ TEST_F(SequenceTest, LightOverFrames) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(a.channels[k].values, b.channels[k].values);
 }
 
+TEST_F(SequenceTest, ScenesOverTheirKeysBecomeGBuffers) {
+  const std::string line = "gbuffer 'scene:meadow?size=64x36&seed=##' -q --frames 1-3 ";
+  expect_success(line + "-o 'depth.####.exr'");
+  expect_success("gbuffer 'scene:meadow?size=64x36&seed=2' -q -o one.exr");
+  tools::Image a, b;
+  ASSERT_TRUE(tools::read_image(path("depth.0002.exr"), &a).ok());
+  ASSERT_TRUE(tools::read_image(path("one.exr"), &b).ok());
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  EXPECT_EQ(a.find("Z")->values, b.find("Z")->values);
+  const CommandResult r = run(line + "--skip-existing -o 'depth.####.exr'");
+  EXPECT_EQ(r.err, "");
+  expect_failure("gbuffer 'depth.####.exr' --frames 1-3 -q -o 'g.#.exr'", 2, "is a depth image");
+}
+
+TEST_F(SequenceTest, VolumesOverTime) {
+  const std::string volume = "volume 'volume:gyroid?size=24&seed=#' --size 32x32 -q ";
+  expect_success(volume + "--frames 1-3 -o 'v.%03d.exr' --fields 'f.%03d.nrrd'");
+  expect_success(
+      "volume 'volume:gyroid?size=24&seed=2' --size 32x32 -q -o one.exr --fields one.nrrd");
+  EXPECT_EQ(read_file(path("f.002.nrrd")), read_file(path("one.nrrd")));
+  tools::Image a, b;
+  ASSERT_TRUE(tools::read_image(path("v.002.exr"), &a).ok());
+  ASSERT_TRUE(tools::read_image(path("one.exr"), &b).ok());
+  EXPECT_EQ(a.channels[0].values, b.channels[0].values);
+  expect_success(volume + "--frames 1-2 --fields 'only.#.nrrd'");
+  EXPECT_EQ(read_file(path("only.2.nrrd")), read_file(path("one.nrrd")));
+  expect_failure(volume + "--frames 1-2 -o 'v.#.exr' --fields f.nrrd", 2,
+                 "--fields f.nrrd has no place for the frame's number");
+}
+
 TEST_F(SequenceTest, MistakesAreNamed) {
   make_shot(1);
   expect_failure(ao_ + "--frames 1- -o 'a.#.exr'", 2, "--frames is '1-'");

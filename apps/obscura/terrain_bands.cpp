@@ -12,6 +12,7 @@
 #include "apps/obscura/terrain_options.h"
 #include "apps/obscura/work_folder.h"
 #include "fmt/format.h"
+#include "io/images/atomic_file.h"
 #include "io/images/files.h"
 #include "io/rasters/gdal.h"
 #include "io/rasters/hull_file.h"
@@ -118,19 +119,22 @@ class BandRun {
     return {};
   }
 
-  // Channels of a band, one behind the other.
+  // Channels of a band, one behind the other. It need not outlive a loss of power, so nobody waits
+  // for the disk.
   static Status save(const std::string& path, const tools::Image& image) {
-    return tools::write_atomically(path, [&](const std::string& temporary) -> Status {
-      std::FILE* file = std::fopen(temporary.c_str(), "wb");
-      bool written = file != nullptr;
-      for (const auto& c : image.channels) {
-        written = written && std::fwrite(c.values.data(), sizeof(float), c.values.size(), file) ==
-                                 c.values.size();
-      }
-      const bool closed = file && std::fclose(file) == 0;
-      if (written && closed) return {};
-      return {StatusCode::kInternal, fmt::format("cannot write {}: {}", path, strerror(errno))};
-    });
+    const tools::IgnoreFileSizeSignal guard;
+    const std::string part = path + ".part";
+    std::FILE* file = std::fopen(part.c_str(), "wb");
+    bool written = file != nullptr;
+    for (const auto& c : image.channels) {
+      written = written && std::fwrite(c.values.data(), sizeof(float), c.values.size(), file) ==
+                               c.values.size();
+    }
+    const int error = errno;
+    const bool closed = file && std::fclose(file) == 0;
+    if (written && closed && std::rename(part.c_str(), path.c_str()) == 0) return {};
+    const char* reason = std::strerror(written ? errno : error);
+    return {StatusCode::kInternal, fmt::format("cannot write {}: {}", path, reason)};
   }
   static Status load(const std::string& path, tools::Image* image) {
     std::FILE* file = std::fopen(path.c_str(), "rb");

@@ -73,5 +73,37 @@ TEST(TerrainBorder, WallsOnTheBorderAreSeenAlongDiagonals) {
   }
 }
 
+// Beside the border as elsewhere: what is seen there is that of the model alone, 9 degrees more
+// open than the same cells with the land beyond, and nothing the sweeps add. Cells reach half a
+// cell beyond their centres, where the march ends.
+TEST(TerrainBorder, BorderCellsAreNearTheMarchedTruth) {
+  const Model m = reference::mountains(120, 120, 30, 1200);
+  TerrainSettings settings;
+  settings.azimuths = 64;
+  std::vector<float> openness(m.heights.size()), svf(m.heights.size());
+  TerrainOutputs outputs;
+  outputs.openness = {openness.data(), m.width, m.height};
+  outputs.svf = {svf.data(), m.width, m.height};
+  ASSERT_TRUE(compute_terrain(m.view(), settings, outputs).ok());
+  for (const int from_border : {0, 1, 2, 5, 40}) {
+    double difference[2] = {}, mean = 0;
+    int count = 0;
+    const int last = 119 - from_border;
+    for (int i = from_border; i <= last; i += 3) {
+      for (const auto& cell :
+           {std::array{i, from_border}, {i, last}, {from_border, i}, {last, i}}) {
+        const reference::Seen truth = reference::marched(m, cell[0], cell[1], 64);
+        const std::size_t at = std::size_t(cell[1]) * m.width + cell[0];
+        difference[0] += std::fabs(openness[at] - truth.openness);
+        difference[1] += std::fabs(svf[at] - truth.svf);
+        mean += truth.svf;
+        ++count;
+      }
+    }
+    EXPECT_LT(difference[0] / count, 0.2) << from_border;
+    EXPECT_LT(difference[1] / mean, 0.0025) << from_border;
+  }
+}
+
 }  // namespace
 }  // namespace obscura

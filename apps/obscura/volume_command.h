@@ -24,6 +24,7 @@ struct PictureSettings {
   VolumeMethod method = VolumeMethod::kSweep;
   FieldsKind fields_of = FieldsKind::kOctants;
   tools::PictureColours colours{};
+  tools::OuterSurface outer{};
   std::optional<double> gamma{};  // 2 for a lit picture, 1 for bare visibility
 };
 
@@ -63,6 +64,7 @@ void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.view, v);
   visit_fields(s.surface, v);
   visit_fields(s.picture.colours, v);
+  visit_fields(s.picture.outer, v);
   v(s.picture.gamma,
     Field{"gamma", "", {}, "Of a .png: light to the power 1/gamma; 2 for a lit picture, else 1."});
   visit_fields(s.distance, [&](auto& value, Field field) {
@@ -100,12 +102,16 @@ Status read_request(const VolumeCommand& command, VolumeRequest* request);
 
 struct VolumePictures {
   tools::Image visibility, coverage, depth;  // a channel each
+  tools::Image facing;                       // of an outer surface: the light of a camera's lamp
+
+  void allocate(int width, int height);
 };
 
 // Mean over the pixels that the surface covers, background taken out of those it covers partly.
 double mean_visibility(const VolumePictures& pictures);
 Status write_volume_picture(const std::string& path, const tools::WriteOptions& write,
-                            const VolumeRequest& request, VolumePictures pictures);
+                            const VolumeRequest& request, VolumePictures pictures,
+                            const VolumePictures* outer);
 Status write_volume_fields(const std::string& path, FieldsKind kind,
                            const tools::VolumeImage& image, const std::vector<float>& distance,
                            const VisibilityField& field, const RunOptions& run);

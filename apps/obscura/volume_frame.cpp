@@ -1,6 +1,7 @@
 // A picture of obscura volume, of a sequence or alone.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "apps/obscura/volume_command.h"
 #include "fmt/format.h"
@@ -32,9 +33,21 @@ Status choose_isovalue(const VolumeCommand& c, const tools::VolumeImage& image, 
 }
 
 // A refused isovalue, named as the user gave it.
-Status named_by_option(const Status& s, const VolumeCommand& c) {
-  const bool isovalue = s.message().starts_with("isovalue") && c.table.given("iso");
-  return isovalue ? Status(s.code(), "--iso: " + s.message()) : s;
+Status named_by_option(const Status& s, const char* option, const OptionTable& table) {
+  const bool outer = std::string_view(option) != "--iso";
+  const bool isovalue = s.message().starts_with("isovalue") && (outer || table.given("iso"));
+  return isovalue ? Status(s.code(), fmt::format("{}: {}", option, s.message())) : s;
+}
+
+// The outer surface must have more matter than the inner one.
+Status check_outer(const VolumeSettings& settings) {
+  const std::optional<float>& outer = settings.picture.outer.isovalue;
+  const DistanceSettings& inner = settings.distance;
+  const bool above = inner.solid == SolidSide::kAbove;
+  if (!outer || (above ? *outer < inner.isovalue : *outer > inner.isovalue)) return {};
+  return invalid_argument(
+      fmt::format("--outer-iso is {:g}; it must be {} the inner isovalue, {:g}, to lie around it",
+                  *outer, above ? "less than" : "greater than", inner.isovalue));
 }
 
 // What is said where no ray meets the surface: of a camera that was placed, where the volume lies.
@@ -64,6 +77,18 @@ Status misses_the_surface(const VolumeCommand& c, const tools::VolumeImage& imag
       low[0], low[1], low[2], high[0], high[1], high[2]));
 }
 
+// Distances, light and pictures of one isosurface.
+struct VolumeLayer {
+  DistanceSettings settings;
+  std::vector<float> distances;
+  tools::VolumeShading shading;
+  VolumePictures pictures;
+
+  GridView<float> grid(const tools::VolumeImage& image) {
+    return {distances.data(), image.size, image.view().spacing};
+  }
+};
+
 class VolumeFrame : public CommandFrame {
  public:
   VolumeFrame(const VolumeCommand& command, const VolumeRequest& request, Executor* executor,
@@ -81,62 +106,86 @@ class VolumeFrame : public CommandFrame {
 
   Status compute(const std::function<bool(double)>& progress) override {
     if (Status s = choose_isovalue(c_, image_, quiet_, &settings_.distance); !s.ok()) return s;
-    // Three steps of equal parts of the bar.
+    if (Status s = check_outer(settings_); !s.ok()) return s;
+    const std::optional<float>& outer_isovalue = settings_.picture.outer.isovalue;
+    // Steps of equal parts of the bar: three, of two surfaces seven.
+    const int steps = outer_isovalue ? 7 : 3;
     int step = 0;
     auto stage = [&](double* milliseconds, auto&& work) {
       const tools::Stopwatch watch;
       RunOptions run;
       run.executor = executor_;
-      run.progress = [&](double share) { return progress((step + share) / 3); };
+      run.progress = [&](double share) { return progress((step + share) / steps); };
       const Status s = work(run);
       ++step;
-      *milliseconds = 1e3 * watch.seconds();
+      *milliseconds += 1e3 * watch.seconds();
       return s;
     };
-    distances_.resize(std::size_t(image_.voxels()));
-    const VolumeView view = image_.view();
-    const GridView<float> distance(distances_.data(), image_.size, view.spacing);
-    Status status = stage(&distance_ms_, [&](const RunOptions& run) {
-      return sweep_distance(view, settings_.distance, distance, run);
-    });
-    if (!status.ok()) return named_by_option(status, c_);
+    auto measure = [&](VolumeLayer& layer) {
+      layer.distances.resize(std::size_t(image_.voxels()));
+      return stage(&distance_ms_, [&](const RunOptions& run) {
+        return sweep_distance(image_.view(), layer.settings, layer.grid(image_), run);
+      });
+    };
+    inner_.settings = outer_.settings = settings_.distance;
+    if (Status s = measure(inner_); !s.ok()) return named_by_option(s, "--iso", c_.table);
+    if (outer_isovalue) {
+      outer_.settings.isovalue = *outer_isovalue;
+      if (Status s = measure(outer_); !s.ok()) return named_by_option(s, "--outer-iso", c_.table);
+    }
     SurfaceCamera camera;
     RunOptions with_threads;
     with_threads.executor = executor_;
-    if (Status s = tools::place_camera(image_, distance, settings_.view, &camera, with_threads);
+    VolumeLayer& framed = outer_isovalue ? outer_ : inner_;
+    if (Status s =
+            tools::place_camera(image_, framed.grid(image_), settings_.view, &camera, with_threads);
         !s.ok()) {
       return s;
     }
     tools::VolumeTruth truth;
     truth.monte_carlo = settings_.picture.method == VolumeMethod::kMonteCarlo;
     truth.settings = settings_.monte_carlo;
-    status = stage(&light_ms_, [&](const RunOptions& run) {
-      return shading_.prepare(image_, distance, p_.light, settings_.occlusion, truth, run);
-    });
-    if (!status.ok()) return status;
-    if (!picture_.empty()) {
-      const int width = settings_.view.size.width, height = settings_.view.size.height;
-      for (tools::Image* i : {&pictures_.visibility, &pictures_.coverage, &pictures_.depth}) {
-        *i = tools::Image(width, height);
-        i->add("Y");
-      }
-      status = stage(&render_ms_, [&](const RunOptions& run) {
-        return render_surface(
-            {view, settings_.distance.isovalue, settings_.distance.solid, distance}, camera,
-            settings_.surface, shading_.shader(camera),
-            {pictures_.visibility.view(0), pictures_.coverage.view(0), pictures_.depth.view(0)},
-            run);
+    for (VolumeLayer* layer : {&inner_, &outer_}) {
+      if (layer == &outer_ && !outer_isovalue) continue;
+      const Status s = stage(&light_ms_, [&](const RunOptions& run) {
+        return layer->shading.prepare(image_, layer->grid(image_), p_.light, settings_.occlusion,
+                                      truth, run);
       });
-      if (!status.ok()) return status;
-      mean_ = mean_visibility(pictures_);
+      if (!s.ok()) return s;
+    }
+    if (!picture_.empty()) {
+      auto render = [&](VolumeLayer& layer, const SurfaceShader& shader,
+                        const SurfaceOutputs& outputs) {
+        return stage(&render_ms_, [&](const RunOptions& run) {
+          return render_surface(
+              {image_.view(), layer.settings.isovalue, layer.settings.solid, layer.grid(image_)},
+              camera, settings_.surface, shader, outputs, run);
+        });
+      };
+      for (VolumeLayer* layer : {&inner_, &outer_}) {
+        if (layer == &outer_ && !outer_isovalue) continue;
+        VolumePictures& to = layer->pictures;
+        to.allocate(settings_.view.size.width, settings_.view.size.height);
+        const Status s = render(*layer, layer->shading.shader(camera),
+                                {to.visibility.view(0), to.coverage.view(0), to.depth.view(0)});
+        if (!s.ok()) return s;
+      }
+      if (outer_isovalue) {
+        const Status s =
+            render(outer_, tools::camera_lamp(camera), {outer_.pictures.facing.view(0)});
+        if (!s.ok()) return s;
+      }
+      mean_ = mean_visibility(framed.pictures);
       if (std::isnan(mean_)) return misses_the_surface(c_, image_);
     }
     size_ = image_.size;
     if (!c_.fields.empty()) return {};
     // A volume is large, and others are in memory at the same time.
     image_ = {};
-    distances_ = {};
-    shading_ = {};
+    for (VolumeLayer* layer : {&inner_, &outer_}) {
+      layer->distances = {};
+      layer->shading = {};
+    }
     return {};
   }
 
@@ -145,7 +194,10 @@ class VolumeFrame : public CommandFrame {
       tools::WriteOptions write;
       write.half = c_.half;
       write.made_by = files_.made_by;
-      if (Status s = write_volume_picture(picture_, write, p_, std::move(pictures_)); !s.ok()) {
+      if (Status s =
+              write_volume_picture(picture_, write, p_, std::move(inner_.pictures),
+                                   settings_.picture.outer.isovalue ? &outer_.pictures : nullptr);
+          !s.ok()) {
         return s;
       }
     }
@@ -153,8 +205,8 @@ class VolumeFrame : public CommandFrame {
     RunOptions run;
     run.threads = 1;  // in a sequence, the others compute the next frame
     if (!files_.number) run.executor = executor_;
-    return write_volume_fields(fields_, settings_.picture.fields_of, image_, distances_,
-                               shading_.field(), run);
+    return write_volume_fields(fields_, settings_.picture.fields_of, image_, inner_.distances,
+                               inner_.shading.field(), run);
   }
 
   std::string line() const override {
@@ -198,9 +250,7 @@ class VolumeFrame : public CommandFrame {
   const std::string picture_, fields_;  // "" where none is wanted
   tools::VolumeImage image_;
   std::array<int, 3> size_{};
-  std::vector<float> distances_;
-  tools::VolumeShading shading_;
-  VolumePictures pictures_;
+  VolumeLayer inner_, outer_;
   double distance_ms_ = 0, light_ms_ = 0, render_ms_ = 0, mean_ = 0;
 };
 

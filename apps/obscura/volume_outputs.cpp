@@ -40,7 +40,13 @@ Status write_volume_fields(const std::string& path, FieldsKind kind,
                                             : tools::write_nrrd(path, grid, fields);
 }
 
-// Mean over the pixels that the surface covers, background taken out of those it covers partly.
+void VolumePictures::allocate(int width, int height) {
+  for (tools::Image* image : {&visibility, &coverage, &depth, &facing}) {
+    *image = tools::Image(width, height);
+    image->add("Y");
+  }
+}
+
 double mean_visibility(const VolumePictures& pictures) {
   double sum = 0, covered = 0;
   const std::vector<float>& coverage = pictures.coverage.channels[0].values;
@@ -53,13 +59,18 @@ double mean_visibility(const VolumePictures& pictures) {
 }
 
 Status write_volume_picture(const std::string& path, const tools::WriteOptions& write,
-                            const VolumeRequest& p, VolumePictures all) {
+                            const VolumeRequest& p, VolumePictures all,
+                            const VolumePictures* outer) {
   const float gamma = float(p.gamma);
   if (p.picture) {
-    return tools::write_image(
-        path,
-        tools::picture_of_light(all.visibility, all.coverage, p.settings.picture.colours, gamma),
-        write);
+    const PictureSettings& settings = p.settings.picture;
+    tools::Image picture =
+        tools::picture_of_light(all.visibility, all.coverage, settings.colours, gamma);
+    if (outer) {
+      tools::add_outer_layer({outer->visibility, outer->coverage, outer->depth, outer->facing},
+                             all.depth, settings.outer, gamma, &picture);
+    }
+    return tools::write_image(path, picture, write);
   }
   if (gamma != 1) {
     for (float& v : all.visibility.channels[0].values) v = std::pow(v, 1 / gamma);

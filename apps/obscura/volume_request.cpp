@@ -46,10 +46,16 @@ Status choose_light(const VolumeCommand& c, VolumeRequest* p) {
     return invalid_argument(
         "--light lit makes a picture in colours; write .png without --outputs, or use --light ao");
   }
-  for (const char* option : {"surface_colour", "background_colour"}) {
+  for (const char* option :
+       {"surface_colour", "background_colour", "outer_iso", "outer_opacity", "outer_colour"}) {
     if (!p->picture && c.table.given(option)) {
       return invalid_argument(
           fmt::format("--{} is for a .png with --light lit", option_name(option)));
+    }
+  }
+  for (const char* option : {"outer_opacity", "outer_colour"}) {
+    if (!p->settings.picture.outer.isovalue && c.table.given(option)) {
+      return invalid_argument(fmt::format("--{} needs --outer-iso", option_name(option)));
     }
   }
   p->light_name = light;

@@ -169,13 +169,15 @@ Status VolumeShading::visibility(int first_row, std::span<const SurfacePoint> po
              : monte_carlo_visibility(distance_, points, settings, light, run);
 }
 
+SurfaceShader camera_lamp(const SurfaceCamera& camera) {
+  return [&camera](int, std::span<const SurfacePoint> points, std::span<float> light) {
+    for (std::size_t i = 0; i < points.size(); ++i) light[i] = headlight(camera, points[i], 0, 0);
+    return Status();
+  };
+}
+
 SurfaceShader VolumeShading::shader(const SurfaceCamera& camera) const {
-  if (light_.kind == VolumeLight::kHeadlight) {
-    return [&camera](int, std::span<const SurfacePoint> points, std::span<float> light) {
-      for (std::size_t i = 0; i < points.size(); ++i) light[i] = headlight(camera, points[i], 0, 0);
-      return Status();
-    };
-  }
+  if (light_.kind == VolumeLight::kHeadlight) return camera_lamp(camera);
   if (light_.kind == VolumeLight::kLit) {
     return [this, &camera](int first_row, std::span<const SurfacePoint> points,
                            std::span<float> light) {

@@ -29,6 +29,10 @@ Status parse_volume_light(const std::string& text, VolumeLight* light);
 unsigned octants_to_grid(const VolumeImage& image, unsigned octants);
 unsigned upper_octants(const VolumeImage& image);
 
+// A lamp at the camera: the cosine between the normal and the way to it. The camera must outlive
+// the shader.
+SurfaceShader camera_lamp(const SurfaceCamera& camera);
+
 // How light is found: by sweeps, or by rays (ambient visibility and shadows only).
 struct VolumeTruth {
   bool monte_carlo = false;

@@ -28,7 +28,41 @@ Image picture_of_light(const Image& light, const Image& coverage, const PictureC
   return picture;
 }
 
+void add_outer_layer(const OuterLayer& layer, const Image& inner_depth, const OuterSurface& outer,
+                     float gamma, Image* picture) {
+  constexpr float kLeastFacing = 0.1f;  // a shell seen along its side has an end
+  const std::size_t pixels = inner_depth.channels[0].values.size();
+  float colour[3];
+  for (int k = 0; k < 3; ++k) colour[k] = std::pow(outer.colour[k], gamma);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float covered = layer.coverage.channels[0].values[i];
+    const bool behind = inner_depth.channels[0].values[i] <= layer.depth.channels[0].values[i];
+    if (covered == 0 || behind) continue;
+    const float open = 1 - covered;
+    const float facing = (layer.facing.channels[0].values[i] - open) / covered;
+    const float lit = std::max((layer.light.channels[0].values[i] - open) / covered, 0.0f);
+    const float through = std::pow(1 - outer.opacity, 1 / std::clamp(facing, kLeastFacing, 1.0f));
+    const float opacity = covered * (1 - through);
+    for (int k = 0; k < 3; ++k) {
+      float& v = picture->channels[k].values[i];
+      v = std::pow((1 - opacity) * std::pow(v, gamma) + opacity * lit * colour[k], 1 / gamma);
+    }
+  }
+}
+
 }  // namespace tools
+
+bool SettingText<tools::OptionalIsovalue>::parse(std::string_view text,
+                                                 tools::OptionalIsovalue* value) {
+  double number;
+  if (!parse_number(text, &number) || !std::isfinite(static_cast<float>(number))) return false;
+  value->emplace(static_cast<float>(number));
+  return true;
+}
+
+std::string SettingText<tools::OptionalIsovalue>::write(const tools::OptionalIsovalue& value) {
+  return value ? fmt::format("{:g}", *value) : "";
+}
 
 bool SettingText<tools::Colour>::parse(std::string_view text, tools::Colour* value) {
   double n[3];

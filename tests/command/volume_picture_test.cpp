@@ -130,6 +130,44 @@ TEST_F(VolumePicture, RaysAgree) {
   EXPECT_LT(error, 0.03);
 }
 
+// An outer surface that lets all light through is not there; one that lets none through is all that
+// is seen.
+TEST_F(VolumePicture, TwoSurfaces) {
+  const std::string ball = "volume volume:sphere?size=32 -q --size 48x48 ";
+  // Both surfaces lie in the picture that the outer one is framed by.
+  const std::string camera = "--eye 2.5,1.9,1.2 --look-at 0.5,0.5,0.5 ";
+  const std::string two = ball + camera + "--iso 0.1 --outer-iso 0 --outer-colour 0,0.5,1 ";
+  expect_success(two + "-o clear.png --outer-opacity 0");
+  expect_success(two + "-o solid.png --outer-opacity 1");
+  expect_success(two + "-o half.png --outer-opacity 0.5");
+  expect_success(ball + camera + "-o inner.png --iso 0.1");
+  expect_success(ball + camera + "-o outer.png --surface-colour 0,0.5,1");
+  std::vector<Image> images(5);
+  const char* files[5] = {"clear.png", "inner.png", "solid.png", "outer.png", "half.png"};
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(tools::read_image(path(files[i]), &images[i]).ok());
+  int between = 0;
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < images[0].channels[0].values.size(); ++i) {
+      float v[5];
+      for (int m = 0; m < 5; ++m) v[m] = images[m].channels[k].values[i];
+      EXPECT_NEAR(v[0], v[1], 1.01 / 255);
+      EXPECT_NEAR(v[2], v[3], 1.01 / 255);
+      EXPECT_GE(v[4], std::min(v[0], v[2]) - 1.01 / 255);
+      EXPECT_LE(v[4], std::max(v[0], v[2]) + 1.01 / 255);
+      between += std::abs(v[4] - v[0]) > 0.05 && std::abs(v[4] - v[2]) > 0.05;
+    }
+  }
+  EXPECT_GT(between, 1000);
+  expect_failure(two + "-o below.png --solid below", 2,
+                 "--outer-iso is 0; it must be greater than");
+  expect_failure(ball + "-o a.png --outer-iso 0.1", 2, "less than the inner isovalue, 0");
+  expect_failure(ball + "-o a.png --outer-iso -9", 2, "--outer-iso: isovalue is -9");
+  expect_failure(ball + "-o a.png --outer-iso inf", 2, "a finite number");
+  expect_failure(ball + "-o a.png --outer-opacity 0.5", 2, "needs --outer-iso");
+  expect_failure(ball + "-o a.pfm --outer-iso -0.1", 2, "--light lit");
+  expect_failure(ball + "-o a.png --outer-iso -0.1 --outer-opacity 2", 2, "--outer-opacity");
+}
+
 TEST_F(VolumePicture, BadUsage) {
   const std::string ball = "volume volume:sphere?size=8 ";
   expect_failure(ball + "-o a.pfm --light lit", 2, "--light lit makes a picture");

@@ -157,7 +157,7 @@ TEST_F(VolumePicture, TwoSurfaces) {
       between += std::abs(v[4] - v[0]) > 0.05 && std::abs(v[4] - v[2]) > 0.05;
     }
   }
-  EXPECT_GT(between, 1000);
+  EXPECT_GT(between, 300);
   expect_failure(two + "-o below.png --solid below", 2,
                  "--outer-iso is 0; it must be greater than");
   expect_failure(ball + "-o a.png --outer-iso 0.1", 2, "less than the inner isovalue, 0");

@@ -4,6 +4,7 @@
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/backend.h"
+#include "apps/obscura/exr_options.h"
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
 #include "apps/obscura/output.h"
@@ -21,7 +22,8 @@ struct AoCommand {
   SequenceOptions sequence;
   std::string output, outputs = "visibility", json;
   int threads = 0;
-  bool keep_channels = false, half = false;
+  ExrOptions exr;
+  bool keep_channels = false;
 };
 
 double mean(const ImageView<const float>& image) {
@@ -71,13 +73,12 @@ class AoFrame : public CommandFrame {
 
   Status write() override {
     tools::WriteOptions write;
-    write.half = c_.half;
     write.made_by = files_.made_by;
     if (c_.keep_channels) {
       write.keep_channels_of = files_.input;
       write.kept_guard_band = input_.field().guard_band;
     }
-    return tools::write_image(files_.output, images_.image(), write);
+    return c_.exr.write(files_.output, write, input_.field().guard_band, &images_.image());
   }
 
   std::string line() const override {
@@ -116,18 +117,24 @@ class AoFrame : public CommandFrame {
   double mean_ = 0;
 };
 
-Status run_ao(const AoCommand& c, bool quiet) {
+Status run_ao(AoCommand& c, bool quiet) {
+  c.sequence.set_into(c.exr.into());
   AoShared shared;
   OutputImages images;
   if (Status s = c.method.settings(&shared.settings); !s.ok()) return s;
   if (Status s = OutputImages::parse(c.outputs, &images); !s.ok()) return s;
-  if (Status s = images.check_file(c.output); !s.ok()) return s;
-  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
+  if (Status s = c.exr.check(c.output); !s.ok()) return s;
+  const std::string& output = c.exr.target(c.output);
+  if (Status s = images.check_file(output); !s.ok()) return s;
+  if (Status s = tools::check_image_ending(output); !s.ok()) return s;
+  if (c.keep_channels && c.exr.into()) {
+    return invalid_argument("--keep-channels belongs to --output; --into keeps all channels");
+  }
   if (c.keep_channels &&
-      (tools::file_ending(c.output) != ".exr" || tools::file_ending(c.input.path()) != ".exr")) {
+      (tools::file_ending(output) != ".exr" || tools::file_ending(c.input.path()) != ".exr")) {
     return invalid_argument("--keep-channels needs an EXR file as input and as output");
   }
-  return c.sequence.run(c.input.path(), c.output, quiet, c.json, [&](const FrameFiles& files) {
+  return c.sequence.run(c.input.path(), output, quiet, c.json, [&](const FrameFiles& files) {
     return std::make_unique<AoFrame>(c, &shared, images, files);
   });
 }
@@ -143,7 +150,6 @@ void add_ao(App& app) {
       [c, &app] { return run_ao(*c, app.quiet); });
   command
       ->add_option("-o,--output", c->output, "Result; its ending picks the format: exr, pfm, png")
-      ->required()
       ->type_name("FILE");
   command
       ->add_option("--outputs", c->outputs,
@@ -156,7 +162,7 @@ void add_ao(App& app) {
   add_threads_option(command, &c->threads);
   command->add_flag("--keep-channels", c->keep_channels,
                     "Copy the input's other channels and attributes into an EXR result");
-  command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
+  c->exr.add_to(command);
   command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
       ->type_name("FILE");
   c->sequence.add_to(command, true);

@@ -92,7 +92,8 @@ Status prepare_lights(const LightCommand& c, bool quiet, LightShared* shared) {
                                  {.executor = shared->executor.get()});
 }
 
-Status run_light(const LightCommand& c, bool quiet) {
+Status run_light(LightCommand& c, bool quiet) {
+  c.sequence.set_into(c.exr.into());
   LightShared shared;
   if (Status s = c.method.settings(&shared.method); !s.ok()) return s;
   if (Status s = c.lighting.read(&shared.lighting); !s.ok()) return s;
@@ -101,10 +102,12 @@ Status run_light(const LightCommand& c, bool quiet) {
   if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
     return s;
   }
-  if (Status s = tools::check_image_ending(c.output); !s.ok()) return s;
-  if (Status s = c.sequence.check(c.input.path(), c.output); !s.ok()) return s;
+  if (Status s = c.exr.check(c.output); !s.ok()) return s;
+  const std::string& output = c.exr.target(c.output);
+  if (Status s = tools::check_image_ending(output); !s.ok()) return s;
+  if (Status s = c.sequence.check(c.input.path(), output); !s.ok()) return s;
   if (Status s = prepare_lights(c, quiet, &shared); !s.ok()) return s;
-  return c.sequence.run(c.input.path(), c.output, quiet, c.json, [&](const FrameFiles& files) {
+  return c.sequence.run(c.input.path(), output, quiet, c.json, [&](const FrameFiles& files) {
     return make_light_frame(c, &shared, files);
   });
 }
@@ -125,7 +128,6 @@ void add_light(App& app) {
   command
       ->add_option("-o,--output", c->output,
                    "Result; linear RGB in .exr and .pfm, sRGB of [0, 1] in .png")
-      ->required()
       ->type_name("FILE");
   c->lighting.declare("light", LightingSettings{});
   c->lighting.add_to(command, "Lighting");
@@ -174,7 +176,7 @@ void add_light(App& app) {
   c->method.add_to(command, kDefaultMethod);
   c->input.add_to(command);
   add_threads_option(command, &c->threads);
-  command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
+  c->exr.add_to(command);
   command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")
       ->type_name("FILE");
   c->sequence.add_to(command, true);

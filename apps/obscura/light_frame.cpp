@@ -170,9 +170,10 @@ class LightFrame : public CommandFrame {
     if (c_.supersample > 1) image_ = tools::box_filtered(image_, c_.supersample);
     if (tools::file_ending(files_.output) == ".png") tools::to_srgb(c_.exposure, &image_);
     tools::WriteOptions write;
-    write.half = c_.half;
     write.made_by = files_.made_by;
-    return tools::write_image(files_.output, image_, write);
+    const std::optional<GuardBand> guard_band =
+        c_.supersample > 1 ? std::nullopt : std::optional(input_.field().guard_band);
+    return c_.exr.write(files_.output, write, guard_band, &image_);
   }
 
   std::string line() const override {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/obscura/exr_options.h"
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
 #include "apps/obscura/sequence.h"
@@ -22,7 +23,8 @@ struct LightCommand {
   std::string albedo = "1,1,1", sun_direction, sun_irradiance = "3,3,3";
   double sun_radius_deg = 0.27, heading_deg = 0, pitch_deg = 0, exposure = 0;
   std::string cones = "cosine", comparator = "none";
-  bool no_background = false, no_cache = false, half = false;
+  bool no_background = false, no_cache = false;
+  ExrOptions exr;
   int threads = 0, supersample = 1;
 };
 

@@ -106,12 +106,17 @@ Status SequenceOptions::plan(const std::string& input, const std::string& output
     if (Status s = tools::parse_shard(shard_, &shard); !s.ok()) return s;
   }
   if (!tools::has_frame_number(output)) {
-    return invalid_argument(fmt::format(
-        "--output {} has no place for the frame's number; write #### or %04d there", output));
+    return invalid_argument(
+        fmt::format("{} {} has no place for the frame's number; write #### or %04d there",
+                    into_ ? "--into" : "--output", output));
   }
   if (!tools::has_frame_number(input) && cameras_.empty()) {
     return invalid_argument(
         fmt::format("{} has no place for the frame's number; write #### or %04d there", input));
+  }
+  if (skip_existing_ && into_) {
+    return invalid_argument(
+        "--skip-existing does not go with --into, whose files are always there; give --replace");
   }
   if (skip_existing_ && tools::file_ending(output) != ".exr") {
     return invalid_argument(fmt::format(
@@ -125,7 +130,7 @@ Status SequenceOptions::plan(const std::string& input, const std::string& output
   for (auto k = static_cast<std::size_t>(shard.index - 1); k < all.size(); k += step) {
     plan->frames.push_back(all[k]);
     if (!cameras.empty()) plan->cameras.push_back(cameras[k]);
-    if (tools::name_of_frame(input, all[k]) == tools::name_of_frame(output, all[k])) {
+    if (!into_ && tools::name_of_frame(input, all[k]) == tools::name_of_frame(output, all[k])) {
       return invalid_argument(
           fmt::format("--output {} is the input too; the frames must not replace it", output));
     }

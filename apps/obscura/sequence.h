@@ -39,6 +39,8 @@ class SequenceOptions {
   // `cameras`: whether the command reads depth images, whose cameras a file can hold.
   void add_to(CLI::App* command, bool cameras);
 
+  // The results go into files that are there, which the input may be.
+  void set_into(bool into) { into_ = into; }
   bool given() const { return command_->count("--frames") > 0; }
 
   // What can be wrong before a frame is read, for commands that prepare at length; run() does it
@@ -62,7 +64,7 @@ class SequenceOptions {
 
   CLI::App* command_ = nullptr;
   std::string frames_, shard_, cameras_;
-  bool skip_existing_ = false, continue_on_error_ = false;
+  bool skip_existing_ = false, continue_on_error_ = false, into_ = false;
 };
 
 }  // namespace obscura::app

@@ -77,8 +77,14 @@ struct DeepLayer {
 Status read_exr_deep(const std::string& path, int part, int most_layers,
                      std::vector<DeepLayer>* layers);
 
+// The names that a choice of compression has: "none, rle, zips, zip, piz, ...".
+std::string exr_compressions();
+// Whether it is one of them, or empty.
+Status check_exr_compression(const std::string& name);
+
 struct ExrWriteOptions {
-  bool half = false;  // 16-bit floats
+  bool half = false;          // 16-bit floats
+  std::string compression{};  // of exr_compressions(); empty: zip
   // The command that made the image, for a sequence to know its frames again; empty: not said.
   std::string made_by{};
   // An EXR file whose other channels, in their own types, and attributes go along. The image then
@@ -92,6 +98,25 @@ struct ExrWriteOptions {
   // Channels with a type of their own, half or float.
   std::vector<ExrHeader::Channel> types;
 };
+
+struct ExrAddOptions {
+  bool half = false;
+  // Empty: the part's own; where that loses bits, zip, so that what is there stays as it was.
+  std::string compression{};
+  std::string part{};    // name or number from 0; empty: the first; a new name makes a new part
+  std::string layer{};   // goes before the channels' names: LAYER.visibility
+  bool replace = false;  // channels of the same names
+  std::string made_by{};
+  // As kept_guard_band above.
+  std::optional<GuardBand> guard_band{};
+};
+
+// Writes the EXR file `target` again to `path` with the image's channels in one of its parts. Other
+// parts, deep and tiled ones too, go along as the bytes they are; the part's own channels keep
+// their types and values, its attributes and windows stay. Where the image has no pixel, visibility
+// is 1 and other channels are 0.
+Status add_to_exr(const std::string& path, const std::string& target, const Image& image,
+                  const ExrAddOptions& options);
 
 // By name, in any case: Z, depth.Z, Depth.V, ViewLayer.Depth.Z, VRayZDepth.R; the same with "back".
 bool looks_like_depth(const std::string& channel);

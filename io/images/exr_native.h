@@ -3,6 +3,7 @@
 
 // What the files of io/images that include OpenEXR's headers share.
 
+#include <ImfCompression.h>
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
 
@@ -47,6 +48,9 @@ Status open_exr(const std::string& path, ExrHeader* header,
 
 // Refuses a part with several samples a pixel.
 Status refuse_deep(const std::string& path, const ExrHeader& header);
+
+// "zip" and so on; exr_compressions() lists them.
+Status parse_exr_compression(const std::string& name, Imf::Compression* compression);
 
 // Where pixel (0, 0) of a plane over `window` would lie, as OpenEXR addresses pixels.
 inline char* origin_of(void* pixels, const PixelWindow& window, std::ptrdiff_t pixel_bytes) {

@@ -1,7 +1,6 @@
 #include <ImfChannelList.h>
 #include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
@@ -15,6 +14,7 @@
 #include <stdexcept>
 
 #include "io/images/exr.h"
+#include "io/images/exr_checked_file.h"
 #include "io/images/exr_native.h"
 
 namespace obscura::tools {
@@ -100,47 +100,6 @@ void add_matrix(const char* name, const std::optional<ExrHeader::Matrix>& matrix
   header->insert(name, Imf::M44fAttribute(m));
 }
 
-// A file of which every write is checked: OpenEXR's own streams lose what fails when they close,
-// such as the last bytes on a disk that is full.
-class CheckedFile : public Imf::OStream {
- public:
-  explicit CheckedFile(const std::string& path)
-      : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
-    if (!file_) error_ = errno;
-  }
-  ~CheckedFile() override { close(); }
-  CheckedFile(const CheckedFile&) = delete;
-  CheckedFile& operator=(const CheckedFile&) = delete;
-
-  void write(const char* bytes, int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (error_ == 0 && std::fwrite(bytes, 1, size, file_) != size) note_error();
-    if (error_ != 0) throw std::runtime_error(std::strerror(error_));
-  }
-  // OpenEXR calls these in destructors: they only take note.
-  std::uint64_t tellp() override {
-    const long at = error_ == 0 ? std::ftell(file_) : 0;
-    if (at < 0) note_error();
-    return at < 0 ? 0 : static_cast<std::uint64_t>(at);
-  }
-  void seekp(std::uint64_t at) override {
-    if (error_ == 0 && std::fseek(file_, static_cast<long>(at), SEEK_SET) != 0) note_error();
-  }
-  // 0, or the errno of the first thing that failed.
-  int error() const { return error_; }
-  int close() {
-    if (file_ && std::fclose(file_) != 0 && error_ == 0) error_ = errno;
-    file_ = nullptr;
-    return error_;
-  }
-
- private:
-  void note_error() { error_ = errno != 0 ? errno : EIO; }
-
-  std::FILE* file_;
-  int error_ = 0;
-};
-
 Status cannot_write(const std::string& path, const std::string& reason) {
   return {StatusCode::kInternal, fmt::format("cannot write {}: {}", path, reason)};
 }
@@ -186,6 +145,11 @@ Status write_exr(const std::string& path, const Image& image, const ExrWriteOpti
   }
   // Every reader takes ZIP, by blocks of 16 rows, which several threads share.
   header.compression() = Imf::ZIP_COMPRESSION;
+  if (!options.compression.empty()) {
+    Imf::Compression compression;
+    if (Status s = parse_exr_compression(options.compression, &compression); !s.ok()) return s;
+    header.compression() = compression;
+  }
 
   Imf::FrameBuffer frame;
   auto add = [&](const std::string& name, Imf::PixelType type, const void* pixels) {

@@ -51,6 +51,7 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
       ExrWriteOptions exr;
       exr.half = options.half;
       exr.made_by = options.made_by;
+      exr.compression = options.compression;
       exr.keep_channels_of = options.keep_channels_of;
       exr.kept_guard_band = options.kept_guard_band;
       return write_exr(temporary, image, exr);

@@ -22,6 +22,7 @@ struct WriteOptions {
   int png_bits = 8;   // PNG: 8 or 16 per channel
   // EXR: the command that made the image; empty: not said.
   std::string made_by{};
+  std::string compression{};  // EXR: of exr_compressions(); empty: zip
   // EXR: the path of an EXR file whose other channels and attributes are copied along. The image
   // has the size of its display window, or is what is visible of it with this guard band, that of
   // the DepthInput loaded from it.

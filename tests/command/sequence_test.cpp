@@ -225,6 +225,33 @@ TEST_F(SequenceTest, VolumesOverTime) {
                  "--fields f.nrrd has no place for the frame's number");
 }
 
+TEST_F(SequenceTest, ResultsGoIntoTheFilesOfTheShot) {
+  make_shot(2);
+  expect_success(ao_ + "--frames 1-2 -o 'a.####.exr'");
+  const std::string into = ao_ + "--frames 1-2 --into 'depth.####.exr' --layer ao ";
+  expect_success(into);
+  tools::Image a, b;
+  ASSERT_TRUE(tools::read_image(path("a.0002.exr"), &a).ok());
+  ASSERT_TRUE(tools::read_image(path("depth.0002.exr"), &b).ok());
+  ASSERT_TRUE(b.find("ao.visibility") && b.find("Z"));
+  // The depth has a guard band, which the result has not.
+  EXPECT_LT(a.width, b.width);
+  const int left = (b.width - a.width) / 2, top = (b.height - a.height) / 2;
+  const ImageView<const float> all(b.find("ao.visibility")->values.data(), b.width, b.height);
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) ASSERT_EQ(all(x + left, y + top), a.view(0)(x, y));
+  }
+  expect_failure(into, 2, "has a channel ao.visibility already; give --replace");
+  const std::string before = read_file(path("depth.0001.exr"));
+  expect_failure(into + "--replace", 1, "depth.0001.exr", "ulimit -f 4;");  // a full disk
+  EXPECT_EQ(read_file(path("depth.0001.exr")), before);
+  expect_success(into + "--replace");
+  EXPECT_EQ(read_file(path("depth.0001.exr")), before);
+  expect_failure(ao_ + "--into depth.0001.exr -o a.exr", 2, "exclude each other");
+  expect_failure(ao_, 2, "--output is required, or --into");
+  expect_failure(into + "--skip-existing", 2, "--skip-existing does not go with --into");
+}
+
 TEST_F(SequenceTest, MistakesAreNamed) {
   make_shot(1);
   expect_failure(ao_ + "--frames 1- -o 'a.#.exr'", 2, "--frames is '1-'");

@@ -21,8 +21,9 @@ namespace {
 
 // Options that change neither what a frame shows nor how it is stored.
 constexpr const char* kWithoutEffect[] = {
-    "help",          "help-all",          "quiet",   "output",  "frames", "shard",
-    "skip-existing", "continue-on-error", "cameras", "threads", "json",   "no-cache"};
+    "help",    "help-all", "quiet", "output",        "into",
+    "replace", "frames",   "shard", "skip-existing", "continue-on-error",
+    "cameras", "threads",  "json",  "no-cache"};
 
 Status interrupted_status() { return {StatusCode::kCancelled, "interrupted"}; }
 

@@ -40,6 +40,11 @@ void VolumeInputOptions::add_to(CLI::App* command) {
   command->add_flag("--raw-big-endian", big_endian_, "Its samples have their high byte first")
       ->group(group);
   command
+      ->add_option("--grid", grid_,
+                   "Grid of an OpenVDB file [density, else the first with two values]")
+      ->type_name("NAME")
+      ->group(group);
+  command
       ->add_option("--clip", clip_,
                    "Keep these voxels only, counted from 0, both ends included; an end left out is "
                    "the volume's")
@@ -73,7 +78,8 @@ Status VolumeInputOptions::load(const std::string& path, int threads,
   if (!clip_.empty()) {
     if (Status s = tools::parse_clip(clip_, &box); !s.ok()) return s;
   }
-  if (Status s = tools::load_volume(path, raw, image, threads); !s.ok()) return s;
+  if (Status s = tools::load_volume(path, raw, image, threads, grid_); !s.ok()) return s;
+  for (const std::string& note : image->notes) fmt::print(stderr, "obscura: note: {}\n", note);
   return clip_.empty() ? Status() : tools::clip(box, image);
 }
 

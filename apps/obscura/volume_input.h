@@ -16,7 +16,7 @@ class VolumeInputOptions {
   Status load(const std::string& path, int threads, tools::VolumeImage* image) const;
 
  private:
-  std::string size_, type_, spacing_, clip_;
+  std::string size_, type_, spacing_, clip_, grid_;
   bool big_endian_ = false;
 };
 

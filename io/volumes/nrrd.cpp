@@ -13,87 +13,41 @@
 
 #include "io/images/atomic_file.h"
 #include "io/volumes/byte_source.h"
+#include "io/volumes/nrrd_header.h"
 
 namespace obscura::tools {
 namespace {
-
-constexpr std::int64_t kMostHeader = 1 << 20;
-
-std::string trimmed(const std::string& s) {
-  const std::size_t begin = s.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return s.substr(begin, s.find_last_not_of(" \t\r") - begin + 1);
-}
 
 std::string lower(std::string s) {
   for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
   return s;
 }
 
-struct Header {
-  std::map<std::string, std::string> fields;  // keys in lower case
-  std::int64_t end = 0;                       // position after the blank line
-
-  std::string get(const std::string& key) const {
-    const auto at = fields.find(key);
-    return at == fields.end() ? "" : at->second;
-  }
-};
-
-Status read_header(const std::string& path, Header* header) {
-  if (Status s = check_readable(path); !s.ok()) return s;
-  std::ifstream file(path, std::ios::binary);
-  std::string line(8, '\0');
-  file.read(line.data(), 8);
-  if (!file || line.substr(0, 7) != "NRRD000") {
-    return invalid_input(fmt::format("{}: is not NRRD; it does not begin with NRRD000", path));
-  }
-  std::getline(file, line);
-  std::int64_t total = 0;
-  while (std::getline(file, line)) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) {
-      header->end = file.tellg();
-      return {};
-    }
-    total += std::int64_t(line.size());
-    if (total > kMostHeader) break;
-    if (line[0] == '#') continue;
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) {
-      return invalid_input(
-          fmt::format("{}: its header has a line without a colon: \"{:.60}\"", path, line));
-    }
-    if (colon + 1 < line.size() && line[colon + 1] == '=') continue;  // the user's own
-    header->fields[lower(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
-  }
-  header->end = -1;  // allowed where the data lie elsewhere
-  return {};
-}
-
 bool stored_type(const std::string& name, StoredType* type) {
-  static const std::map<std::string, StoredType> kTypes = {
-      {"uchar", StoredType::kU8},       {"unsigned char", StoredType::kU8},
-      {"uint8", StoredType::kU8},       {"uint8_t", StoredType::kU8},
-      {"signed char", StoredType::kI8}, {"int8", StoredType::kI8},
-      {"int8_t", StoredType::kI8},      {"short", StoredType::kI16},
-      {"short int", StoredType::kI16},  {"signed short", StoredType::kI16},
-      {"int16", StoredType::kI16},      {"int16_t", StoredType::kI16},
-      {"ushort", StoredType::kU16},     {"unsigned short", StoredType::kU16},
-      {"uint16", StoredType::kU16},     {"uint16_t", StoredType::kU16},
-      {"int", StoredType::kI32},        {"signed int", StoredType::kI32},
-      {"int32", StoredType::kI32},      {"int32_t", StoredType::kI32},
-      {"uint", StoredType::kU32},       {"unsigned int", StoredType::kU32},
-      {"uint32", StoredType::kU32},     {"uint32_t", StoredType::kU32},
-      {"longlong", StoredType::kI64},   {"long long", StoredType::kI64},
-      {"int64", StoredType::kI64},      {"int64_t", StoredType::kI64},
-      {"ulonglong", StoredType::kU64},  {"unsigned long long", StoredType::kU64},
-      {"uint64", StoredType::kU64},     {"uint64_t", StoredType::kU64},
-      {"float", StoredType::kF32},      {"double", StoredType::kF64}};
-  const auto at = kTypes.find(lower(name));
-  if (at == kTypes.end()) return false;
-  *type = at->second;
-  return true;
+  // The format's own table ("Basic field specifications", type).
+  static const std::pair<StoredType, std::vector<const char*>> kNames[] = {
+      {StoredType::kI8, {"signed char", "int8", "int8_t"}},
+      {StoredType::kU8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {StoredType::kI16,
+       {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {StoredType::kU16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {StoredType::kI32, {"int", "signed int", "int32", "int32_t"}},
+      {StoredType::kU32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {StoredType::kI64,
+       {"longlong", "long long", "long long int", "signed long long", "signed long long int",
+        "int64", "int64_t"}},
+      {StoredType::kU64,
+       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {StoredType::kF32, {"float"}},
+      {StoredType::kF64, {"double"}}};
+  for (const auto& [stored, names] : kNames) {
+    for (const char* n : names) {
+      if (lower(name) != n) continue;
+      *type = stored;
+      return true;
+    }
+  }
+  return false;
 }
 
 // "(1,2,3)" from position `at` on, which moves behind it.
@@ -111,22 +65,26 @@ bool parse_vector(const std::string& text, std::size_t* at, Double3* v) {
 }
 
 // World axes from `space directions`, or bare `spacings`.
-Status place(const std::string& path, const Header& h, VolumeImage* image) {
+Status place(const std::string& path, const NrrdHeader& h, const std::vector<int>& kept,
+             VolumeImage* image) {
   const std::string directions = h.get("space directions");
   if (directions.empty()) {
     std::istringstream in(h.get("spacings"));
-    for (int a = 0; a < 3; ++a) {
+    for (int axis = 0, a = 0; a < 3; ++axis) {
       std::string word;
       double s = 1;
       if (in >> word && lower(word) != "nan" && !parse_number(word, &s)) {
         return invalid_input(fmt::format("{}: its spacings are \"{}\"; they must be three numbers",
                                          path, h.get("spacings")));
       }
+      if (axis != kept[a]) continue;
       image->axes[a] = {};
       image->axes[a][a] = s;
+      ++a;
     }
     return {};
   }
+  // A vector for each axis in space; "none" for the others, which are those of length one.
   std::size_t at = 0;
   for (int a = 0; a < 3; ++a) {
     if (!parse_vector(directions, &at, &image->axes[a])) {
@@ -154,24 +112,39 @@ Status place(const std::string& path, const Header& h, VolumeImage* image) {
   return {};
 }
 
-Status parse_sizes(const std::string& path, const Header& h, VolumeImage* image) {
-  if (h.get("dimension") != "3") {
+// The three axes that are not of length one, or the first three; `kept` says which they are.
+Status parse_sizes(const std::string& path, const NrrdHeader& h, VolumeImage* image,
+                   std::vector<int>* kept) {
+  double dimension = 0;
+  if (!parse_number(h.get("dimension"), &dimension) ||
+      !(dimension >= 1 && dimension <= 16 && dimension == std::floor(dimension))) {
     return invalid_input(
-        fmt::format("{}: its dimension is \"{}\"; it must be 3, a single scalar volume", path,
-                    h.get("dimension")));
+        fmt::format("{}: its dimension is \"{:.40}\"; it must be 3", path, h.get("dimension")));
   }
+  std::vector<int> sizes;
   std::istringstream in(h.get("sizes"));
-  for (int& n : image->size) {
-    if (!(in >> n)) n = -1;
+  std::string word;
+  while (in >> word) {
+    double n = 0;
+    if (!parse_number(word, &n) || !(n >= 1 && n <= 1e9 && n == std::floor(n))) n = -1;
+    sizes.push_back(static_cast<int>(n));
   }
-  std::string more;
-  if (in >> more) image->size[0] = -1;
-  if (*std::min_element(image->size.begin(), image->size.end()) < 1) {
+  if (sizes.size() != static_cast<std::size_t>(dimension) || std::ranges::count(sizes, -1) > 0) {
+    return invalid_input(fmt::format("{}: its sizes are \"{:.80}\"; they must be {} numbers from 1",
+                                     path, h.get("sizes"), dimension));
+  }
+  for (int a = 0; a < static_cast<int>(sizes.size()); ++a) {
+    const int left = static_cast<int>(sizes.size()) - a;
+    const bool spare = sizes[a] == 1 && left + static_cast<int>(kept->size()) > 3;
+    if (!spare) kept->push_back(a);
+  }
+  if (kept->size() != 3) {
     return invalid_input(
-        fmt::format("{}: its sizes are \"{:.80}\"; they must be three numbers "
-                    "from 1",
+        fmt::format("{}: its sizes are \"{:.80}\"; a single scalar volume has three axes longer "
+                    "than one",
                     path, h.get("sizes")));
   }
+  for (int a = 0; a < 3; ++a) image->size[a] = sizes[(*kept)[a]];
   return {};
 }
 
@@ -213,38 +186,37 @@ Status skip_lines(ByteSource& source, std::int64_t lines) {
   return {};
 }
 
-// Where the samples begin: the file, and the position in it.
-Status find_data(const std::string& path, const Header& h, std::string* data,
-                 std::int64_t* offset) {
-  std::string name = h.get("data file");
-  if (name.empty()) name = h.get("datafile");
-  if (name.empty()) {
-    if (h.end < 0) {
-      return invalid_input(
-          fmt::format("{}: its header has no end; a blank line or a data file is missing", path));
-    }
-    *data = path;
-    *offset = h.end;
-    return {};
+// One file's share of the samples.
+Status read_slab(const std::string& path, const std::string& file, bool gzip, std::int64_t offset,
+                 double lines, double skip, StoredType stored, bool swap, VolumeImage* slab) {
+  ByteSource source;
+  if (Status s = source.open(file, gzip ? ByteSource::kGunzip : ByteSource::kPlain, offset);
+      !s.ok()) {
+    return s;
   }
-  if (name.starts_with("LIST") || name.find('%') != std::string::npos) {
-    return invalid_input(
-        fmt::format("{}: its data file is \"{:.80}\"; it must be a single file", path, name));
+  if (skip == -1 && !gzip) {
+    // The samples are the file's last bytes.
+    skip = double(source.most_bytes()) - double(slab->voxels()) * double(bytes_of(stored));
+    lines = 0;
   }
-  *data = (std::filesystem::path(path).parent_path() / name).string();
-  *offset = 0;
-  return {};
+  if (skip > double(source.most_bytes())) {
+    return invalid_input(fmt::format("{}: its byte skip is {}, beyond the data's end", path, skip));
+  }
+  if (Status s = skip_lines(source, std::int64_t(lines)); !s.ok()) return s;
+  if (Status s = source.skip(std::int64_t(std::max(0.0, skip))); !s.ok()) return s;
+  return read_samples(source, stored, swap, slab);
 }
 
 }  // namespace
 
 Status read_nrrd(const std::string& path, VolumeImage* image) {
-  Header h;
-  if (Status s = read_header(path, &h); !s.ok()) return s;
+  NrrdHeader h;
+  if (Status s = read_nrrd_header(path, &h); !s.ok()) return s;
   VolumeImage result;
   result.name = path;
   result.format = "NRRD";
-  if (Status s = parse_sizes(path, h, &result); !s.ok()) return s;
+  std::vector<int> kept;
+  if (Status s = parse_sizes(path, h, &result, &kept); !s.ok()) return s;
   StoredType stored;
   if (!stored_type(h.get("type"), &stored)) {
     return invalid_input(
@@ -252,11 +224,11 @@ Status read_nrrd(const std::string& path, VolumeImage* image) {
                     "short, float",
                     path, h.get("type")));
   }
-  if (Status s = place(path, h, &result); !s.ok()) return s;
+  if (Status s = place(path, h, kept, &result); !s.ok()) return s;
   if (Status s = check_geometry(result); !s.ok()) return s;
-  std::string data;
+  std::vector<std::string> data;
   std::int64_t offset = 0;
-  if (Status s = find_data(path, h, &data, &offset); !s.ok()) return s;
+  if (Status s = find_nrrd_data(path, h, &data, &offset); !s.ok()) return s;
 
   const std::string encoding = lower(h.get("encoding"));
   const std::string endian = lower(h.get("endian"));
@@ -278,76 +250,40 @@ Status read_nrrd(const std::string& path, VolumeImage* image) {
           fmt::format("{}: its {} is \"{}\"; it must be a count", path, key, text));
     }
   }
-  ByteSource source;
-  if (Status s = source.open(data, gzip ? ByteSource::kGunzip : ByteSource::kPlain, offset);
-      !s.ok()) {
-    return s;
-  }
   if (ascii) {
-    if (Status s = read_ascii(data, offset, &result); !s.ok()) return s;
+    if (data.size() > 1) {
+      return invalid_input(fmt::format("{}: text samples in several files are not read", path));
+    }
+    if (Status s = read_ascii(data[0], offset, &result); !s.ok()) return s;
     result.stored_type = name_of(stored);
     *image = std::move(result);
     return {};
   }
-  if (skip == -1 && raw) {
-    // The samples are the file's last bytes.
-    skip = double(source.most_bytes()) - double(result.voxels()) * double(bytes_of(stored));
-    lines = 0;
+  const auto files = static_cast<int>(data.size());
+  if (result.size[2] % files != 0) {
+    return invalid_input(
+        fmt::format("{}: {} files cannot share its {} planes evenly", path, files, result.size[2]));
   }
-  if (skip > double(source.most_bytes())) {
-    return invalid_input(fmt::format("{}: its byte skip is {}, beyond the data's end", path, skip));
-  }
-  if (Status s = skip_lines(source, std::int64_t(lines)); !s.ok()) return s;
-  if (Status s = source.skip(std::int64_t(std::max(0.0, skip))); !s.ok()) return s;
   const bool swap = (endian == "big") != (std::endian::native == std::endian::big);
-  if (Status s = read_samples(source, stored, swap, &result); !s.ok()) return s;
+  VolumeImage slab = result;
+  slab.size[2] = result.size[2] / files;
+  for (const std::string& file : data) {
+    slab.name = file;
+    if (Status s = read_slab(path, file, gzip, offset, lines, skip, stored, swap, &slab); !s.ok()) {
+      return s;
+    }
+    if (files == 1) {
+      result.samples = std::move(slab.samples);
+    } else {
+      result.samples.insert(result.samples.end(), slab.samples.begin(), slab.samples.end());
+    }
+  }
+  result.type = slab.type;
+  result.stored_type = slab.stored_type;
+  result.slope = slab.slope;
+  result.intercept = slab.intercept;
   *image = std::move(result);
   return {};
-}
-
-Status write_nrrd(const std::string& path, const FieldGrid& grid,
-                  std::span<const NamedField> fields) {
-  const bool many = fields.size() > 1;
-  auto vector = [](const Double3& v) { return fmt::format("({},{},{})", v[0], v[1], v[2]); };
-  std::string header = "NRRD0005\n# Written by obscura\ntype: float\n";
-  header += fmt::format("dimension: {}\n", many ? 4 : 3);
-  header += "space: right-anterior-superior\n";
-  header += fmt::format("sizes: {}{} {} {}\n", many ? fmt::format("{} ", fields.size()) : "",
-                        grid.size[0], grid.size[1], grid.size[2]);
-  header += fmt::format("space directions: {}{} {} {}\n", many ? "none " : "", vector(grid.axes[0]),
-                        vector(grid.axes[1]), vector(grid.axes[2]));
-  header += fmt::format("kinds: {}domain domain domain\n", many ? "list " : "");
-  header += std::endian::native == std::endian::little ? "endian: little\n" : "endian: big\n";
-  header += "encoding: raw\n";
-  header += fmt::format("space origin: {}\n", vector(grid.origin));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    header += fmt::format("field {}:={}\n", i, fields[i].name);
-  }
-  header += "\n";
-  return write_atomically(path, [&](const std::string& temporary) -> Status {
-    std::ofstream file(temporary, std::ios::binary);
-    file << header;
-    if (!many) {
-      file.write(reinterpret_cast<const char*>(fields[0].values.data()),
-                 std::streamsize(fields[0].values.size() * sizeof(float)));
-    } else {
-      const std::size_t row = std::size_t(grid.size[0]), channels = fields.size();
-      std::vector<float> mixed(row * channels);
-      for (std::size_t begin = 0; begin < fields[0].values.size() && file; begin += row) {
-        for (std::size_t x = 0; x < row; ++x) {
-          for (std::size_t c = 0; c < channels; ++c) {
-            mixed[x * channels + c] = fields[c].values[begin + x];
-          }
-        }
-        file.write(reinterpret_cast<const char*>(mixed.data()),
-                   std::streamsize(mixed.size() * sizeof(float)));
-      }
-    }
-    file.close();
-    if (file) return {};
-    return {StatusCode::kInternal,
-            fmt::format("cannot write {}: {}", path, std::strerror(errno ? errno : EIO))};
-  });
 }
 
 }  // namespace obscura::tools

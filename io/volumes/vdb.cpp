@@ -1,11 +1,12 @@
 // This file and scene/volumes/vdb_distance.cpp are all that includes OpenVDB, which takes long to
 // compile.
-#include "io/volumes/vdb.h"
+#include "io/volumes/vdb_native.h"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "io/images/atomic_file.h"
 
@@ -67,14 +68,22 @@ void for_each_voxel(const openvdb::CoordBBox& part, const openvdb::CoordBBox& bo
   }
 }
 
-// A place without a leaf has one value, its tile's.
+// A place without a leaf has one value, its tile's. What is not active is background, unless all
+// values are wanted.
 template <class Tree>
-void read_voxels(const Tree& tree, const openvdb::CoordBBox& box, float* values) {
+void read_voxels(const Tree& tree, const openvdb::CoordBBox& box, bool all, float* values) {
+  const auto background = static_cast<float>(tree.background());
   for_each_leaf(box, [&](const openvdb::Coord& first, const openvdb::CoordBBox& part) {
     const auto* leaf = tree.probeConstLeaf(first);
-    const float tile = leaf ? 0.0f : static_cast<float>(tree.getValue(first));
+    float tile = background;
+    if (!leaf && (all || tree.isValueOn(first))) tile = static_cast<float>(tree.getValue(first));
     for_each_voxel(part, box, [&](const openvdb::Coord& at, std::int64_t i) {
-      values[i] = leaf ? static_cast<float>(leaf->getValue(at)) : tile;
+      if (!leaf) {
+        values[i] = tile;
+      } else {
+        values[i] =
+            all || leaf->isValueOn(at) ? static_cast<float>(leaf->getValue(at)) : background;
+      }
     });
   });
 }
@@ -88,8 +97,10 @@ void fill_voxels(const float* values, const openvdb::CoordBBox& box, openvdb::Fl
   });
 }
 
+using Memory = std::function<void(double)>;
+
 template <class Grid>
-Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
+Status densify(const Grid& grid, const char* stored, const Memory& memory, VolumeImage* image) {
   // The virtual functions of the bases and the factory below keep the trees' templates in OpenVDB's
   // own library: compiled here they would take half a minute.
   openvdb::CoordBBox box;
@@ -112,57 +123,101 @@ Status densify(const Grid& grid, const char* stored, VolumeImage* image) {
   }
   image->type = VoxelType::kF32;
   image->stored_type = stored;
-  image->samples.resize(std::size_t(image->voxels()) * sizeof(float));
-  read_voxels(grid.constTree(), box, reinterpret_cast<float*>(image->samples.data()));
-  if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
+  const std::size_t bytes = std::size_t(image->voxels()) * sizeof(float);
+  memory(static_cast<double>(bytes));
+  image->samples.resize(bytes);
+  const bool level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  read_voxels(grid.constTree(), box, level_set, reinterpret_cast<float*>(image->samples.data()));
+  if (level_set) {
     image->isovalue = 0.0f;
     image->solid = SolidSide::kBelow;
   }
   return {};
 }
 
-Status densify_any(const openvdb::GridBase::Ptr& grid, VolumeImage* image) {
-  if (auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid)) return densify(*g, "f32", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid)) return densify(*g, "f64", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid)) return densify(*g, "i32", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::Int64Grid>(grid)) return densify(*g, "i64", image);
-  if (auto g = openvdb::gridPtrCast<openvdb::BoolGrid>(grid)) return densify(*g, "bool", image);
-  return unsupported("");
+Status densify_any(const openvdb::GridBase::Ptr& grid, const Memory& memory, VolumeImage* image) {
+  using openvdb::gridPtrCast;
+  if (auto g = gridPtrCast<openvdb::FloatGrid>(grid)) return densify(*g, "f32", memory, image);
+  if (auto g = gridPtrCast<openvdb::DoubleGrid>(grid)) return densify(*g, "f64", memory, image);
+  if (auto g = gridPtrCast<openvdb::Int32Grid>(grid)) return densify(*g, "i32", memory, image);
+  if (auto g = gridPtrCast<openvdb::Int64Grid>(grid)) return densify(*g, "i64", memory, image);
+  if (auto g = gridPtrCast<openvdb::BoolGrid>(grid)) return densify(*g, "bool", memory, image);
+  return invalid_input(fmt::format("{}: its grid \"{}\" is {}, which is no grid of numbers",
+                                   image->name, grid->getName(), grid->type()));
+}
+
+bool is_scalar(const std::string& type) {
+  return type == "float" || type == "double" || type == "int32" || type == "int64" ||
+         type == "bool";
+}
+
+bool is_constant(const VolumeImage& image) {
+  const auto* v = reinterpret_cast<const float*>(image.samples.data());
+  return std::all_of(v, v + image.voxels(), [&](float x) { return x == v[0]; });
+}
+
+// Names of the scalar grids in the order in which they are tried, and a list of all.
+std::vector<std::string> candidates(openvdb::io::File& file, std::string* all) {
+  std::vector<std::string> names;
+  for (auto name = file.beginName(); name != file.endName(); ++name) {
+    const auto meta = file.readGridMetadata(name.gridName());
+    *all += fmt::format("{}{} ({})", all->empty() ? "" : ", ", name.gridName(), meta->type());
+    if (is_scalar(meta->valueType())) names.push_back(name.gridName());
+  }
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name == "density"; });
+  return names;
+}
+
+Status read_file(const std::string& path, const std::string& wanted, const Memory& memory,
+                 VolumeImage* image) {
+  openvdb::io::File file(path);
+  file.open(false);  // no delayed loading: a damaged file shall fail here
+  std::string all;
+  const std::vector<std::string> names = candidates(file, &all);
+  if (!wanted.empty() && std::ranges::find(names, wanted) == names.end()) {
+    return invalid_input(fmt::format("{}: has no grid of numbers \"{}\" (--grid); its grids are {}",
+                                     path, wanted, all));
+  }
+  if (names.empty()) {
+    return invalid_input(
+        fmt::format("{}: has no scalar grid; its grids are {}", path, all.empty() ? "none" : all));
+  }
+  Status first;
+  for (const std::string& name : wanted.empty() ? names : std::vector{wanted}) {
+    VolumeImage result;
+    result.name = path;
+    result.format = "OpenVDB";
+    const Status s = densify_any(file.readGrid(name), memory, &result);
+    const bool fits = s.ok() && (names.size() == 1 || !wanted.empty() || !is_constant(result));
+    if (!fits) {
+      if (first.ok()) first = s.ok() ? Status(invalid_input(path + ": no grid has two values")) : s;
+      continue;
+    }
+    if (names.size() > 1 && wanted.empty()) {
+      result.notes.push_back(
+          fmt::format("{}: of its grids {}, {} is read (--grid)", path, all, name));
+    }
+    *image = std::move(result);
+    return {};
+  }
+  return first;
 }
 
 }  // namespace
 
 bool has_openvdb() { return true; }
 
-Status read_vdb(const std::string& path, VolumeImage* image) {
-  if (Status s = check_readable(path); !s.ok()) return s;
-  VolumeImage result;
-  result.name = path;
-  result.format = "OpenVDB";
+Status read_vdb_trusting(const std::string& path, const std::string& grid, const Memory& memory,
+                         VolumeImage* image) {
   try {
     initialize();
-    openvdb::io::File file(path);
-    file.open(false);  // no delayed loading: a damaged file shall fail here
-    std::string names;
-    for (auto name = file.beginName(); name != file.endName(); ++name) {
-      const auto meta = file.readGridMetadata(name.gridName());
-      names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", name.gridName(), meta->type());
-      if (meta->valueType() != "float" && meta->valueType() != "double" &&
-          meta->valueType() != "int32" && meta->valueType() != "int64" &&
-          meta->valueType() != "bool") {
-        continue;
-      }
-      const Status s = densify_any(file.readGrid(name.gridName()), &result);
-      if (s.code() == StatusCode::kUnsupported) continue;
-      if (s.ok()) *image = std::move(result);
-      return s;
-    }
-    return invalid_input(fmt::format("{}: has no scalar grid; its grids are {}", path,
-                                     names.empty() ? "none" : names));
+    return read_file(path, grid, memory, image);
   } catch (const std::bad_alloc&) {
-    return {StatusCode::kOutOfMemory, fmt::format("{}: does not fit in memory", path)};
+    return invalid_input(
+        fmt::format("{}: damaged: OpenVDB wants more memory than its size explains", path));
   } catch (const std::exception& e) {
-    return invalid_input(fmt::format("{}: cannot be read as OpenVDB: {}", path, e.what()));
+    return invalid_input(fmt::format("{}: cannot be read as OpenVDB: {:.200}", path, e.what()));
   }
 }
 

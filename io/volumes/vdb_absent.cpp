@@ -14,7 +14,7 @@ Status absent(const std::string& path) {
 
 bool has_openvdb() { return false; }
 
-Status read_vdb(const std::string& path, VolumeImage*) { return absent(path); }
+Status read_vdb(const std::string& path, const std::string&, VolumeImage*) { return absent(path); }
 
 Status write_vdb(const std::string& path, const FieldGrid&, std::span<const NamedField>) {
   return absent(path);

@@ -21,8 +21,9 @@ using Double3 = std::array<double, 3>;
 // are turned into it). Elsewhere the world is the file's own. `up` is the direction that a default
 // view shows upwards: z, for OpenVDB y.
 struct VolumeImage {
-  std::string name;    // file or specification, for messages
-  std::string format;  // "NIfTI", "NRRD", ...
+  std::string name;                  // file or specification, for messages
+  std::vector<std::string> notes{};  // what was chosen on reading, a line each
+  std::string format;                // "NIfTI", "NRRD", ...
   VoxelType type = VoxelType::kF32;
   std::string stored_type = "f32";   // in the file; what VoxelType does not have becomes f32
   std::array<int, 3> size{};         // x runs fastest

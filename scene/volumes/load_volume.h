@@ -22,8 +22,9 @@ bool is_volume(const std::string& spec);
 
 // Loads volume:NAME?key=value&..., .nii, .nii.gz, .nrrd, .nhdr, .vdb or .raw; `threads` as for
 // make_executor.
+// `grid` names one of several in a .vdb file. What was chosen stands in image->notes.
 Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw, VolumeImage* image,
-                   int threads = 0);
+                   int threads = 0, const std::string& grid = {});
 
 // What the volume holds: format, size, type, spacing, place in the world, range, counts of values
 // that are not finite, histogram and Otsu's threshold.

@@ -43,6 +43,8 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_sweep_error},
       {"sweep-fig3", "Fast occlusion sweeping, Figure 3: local light, the sweeps and Monte Carlo.",
        reproduce_sweep_fig3},
+      {"sweep-figures", "Fast occlusion sweeping, Figures 4 to 10 on volumes that anyone can make.",
+       reproduce_sweep_figures},
 #ifdef OBSCURA_WITH_VULKAN
       {"vulkan-times", "The papers' timing tables on a Vulkan device, pass by pass",
        reproduce_vulkan_times},

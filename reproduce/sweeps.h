@@ -9,6 +9,7 @@ namespace obscura::tools {
 Status reproduce_sweep_table2(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_sweep_error(const ReproduceContext& context, Report* report, std::string* text);
 Status reproduce_sweep_fig3(const ReproduceContext& context, Report* report, std::string* text);
+Status reproduce_sweep_figures(const ReproduceContext& context, Report* report, std::string* text);
 
 }  // namespace obscura::tools
 

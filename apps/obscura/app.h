@@ -32,6 +32,7 @@ void add_demo(App& app);
 void add_gbuffer(App& app);
 void add_info(App& app);
 void add_light(App& app);
+void add_manual(App& app);
 void add_patterns(App& app);
 void add_settings(App& app);
 void add_terrain(App& app);

@@ -1,5 +1,6 @@
 #include "apps/obscura/backend.h"
 
+#include "apps/obscura/choices.h"
 #include "fmt/format.h"
 #ifdef OBSCURA_WITH_VULKAN
 #include "device/headless.h"
@@ -43,12 +44,14 @@ Status run_on_vulkan(int, bool, const AnySettings&, const LoadedInput&, const Ou
 }  // namespace
 
 void BackendOptions::add_to(CLI::App* command) {
-  command
-      ->add_option(
-          "--backend", backend_,
-          "cpu, vulkan, or auto: a Vulkan device that is not software where the method and its "
-          "settings run on it [default cpu]")
-      ->type_name("NAME");
+  CLI::Option* backend =
+      command
+          ->add_option(
+              "--backend", backend_,
+              "cpu, vulkan, or auto: a Vulkan device that is not software where the method and its "
+              "settings run on it [default cpu]")
+          ->type_name("NAME");
+  set_choices(backend, "cpu, vulkan, auto");
   command
       ->add_option(
           "--device", device_,

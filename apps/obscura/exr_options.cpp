@@ -1,5 +1,6 @@
 #include "apps/obscura/exr_options.h"
 
+#include "apps/obscura/choices.h"
 #include "fmt/format.h"
 #include "io/images/exr.h"
 
@@ -26,12 +27,14 @@ void ExrOptions::add_to(CLI::App* command) {
           ->needs(into));
   add(command->add_option("--layer", layer_, "Layer of the channels: NAME.visibility and so on")
           ->type_name("NAME"));
-  add(command
-          ->add_option("--compression", compression_,
-                       fmt::format("{} [default zip; with --into the part's own, zip where that "
-                                   "loses bits]",
-                                   tools::exr_compressions()))
-          ->type_name("NAME"));
+  set_choices(add(command
+                      ->add_option(
+                          "--compression", compression_,
+                          fmt::format("{} [default zip; with --into the part's own, zip where that "
+                                      "loses bits]",
+                                      tools::exr_compressions()))
+                      ->type_name("NAME")),
+              tools::exr_compressions());
   add(command->add_flag("--half", half_, "Write EXR channels as 16-bit floats"));
 }
 

@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   add_demo(app);
   add_patterns(app);
   add_settings(app);
+  add_manual(app);
   add_programs(app);
   bool known = argc < 2 || argv[1][0] == '-';
   std::string names;

@@ -1,5 +1,6 @@
 #include "apps/obscura/methods.h"
 
+#include "apps/obscura/choices.h"
 #include "fmt/format.h"
 
 namespace obscura::app {
@@ -57,10 +58,12 @@ void set_radius(float radius, AnySettings* settings) {
 
 void MethodOptions::add_to(CLI::App* command, const std::string& default_method) {
   method_ = default_method;
-  command
-      ->add_option("--method", method_,
-                   fmt::format("Estimator: {} [default {}]", method_names(), default_method))
-      ->type_name("NAME");
+  CLI::Option* method =
+      command
+          ->add_option("--method", method_,
+                       fmt::format("Estimator: {} [default {}]", method_names(), default_method))
+          ->type_name("NAME");
+  set_choices(method, method_names());
   for (const MethodEntry& m : methods()) {
     visit_settings(m.defaults, [&](const auto& s) { table_.declare(m.name, s); });
   }

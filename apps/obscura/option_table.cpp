@@ -1,5 +1,6 @@
 #include "apps/obscura/option_table.h"
 
+#include "apps/obscura/choices.h"
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
@@ -61,6 +62,7 @@ void OptionTable::add_to(CLI::App* command, const std::string& group) {
       option.option->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
     }
     option.option->group(group);
+    if (!option.words.empty()) set_choices(option.option, option.words);
   }
 }
 

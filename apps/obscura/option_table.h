@@ -73,6 +73,7 @@ class OptionTable {
     std::string text;
     std::vector<std::string> labels;
     std::string help, expected, unit;
+    std::vector<std::string> words;  // of enumerations
     bool flag = false, repeatable = false;
     std::vector<std::pair<std::string, std::string>> defaults;  // value, labels
   };

@@ -195,6 +195,11 @@ Status run_in_parts(const TerrainCommand& c, const TerrainRequest& p,
   *done = true;
   const bool long_radius = std::isfinite(settings.radius) && settings.radius >= band_radius(whole);
   if (!in_tiles && !long_radius) {
+    if (std::max(whole.whole_width, whole.whole_height) > kMostTerrainCells) {
+      return invalid_input(
+          fmt::format("{} is {}x{} cells; --memory computes up to {} a side, --tile larger ones",
+                      c.input, whole.whole_width, whole.whole_height, kMostTerrainCells));
+    }
     TerrainBands bands{c.input, c.output, read, settings, p.quantities, settings_text(p)};
     bands.rows = band_rows(whole, p.memory, p.quantities, azimuths, c.threads);
     if (bands.rows == 0) {

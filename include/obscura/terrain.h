@@ -44,6 +44,9 @@ struct TerrainWindow {
 // Heights beyond this have no data.
 inline constexpr float kMostTerrainHeight = 1e9f;
 
+// Cells along a side of a model, at most.
+inline constexpr int kMostTerrainCells = 1 << 18;
+
 // Caller-owned heights of a regular grid.
 struct ElevationModel {
   // [1, 262144] cells a side, in the unit of the cells' sides times 1 / z_factor. Cells that are

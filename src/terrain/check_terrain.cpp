@@ -8,7 +8,6 @@
 namespace obscura {
 namespace {
 
-constexpr int kMostCells = 1 << 18;   // a side
 constexpr int kMostAround = 1 << 20;  // of a surround, in cells of the model
 
 Status check_side(const char* name, double side) {
@@ -76,10 +75,10 @@ Status check_terrain(const ElevationModel& model, const TerrainSettings& setting
   }
   const auto& heights = model.heights;
   if (heights.empty()) return invalid_input("heights are missing");
-  if (heights.width < 1 || heights.height < 1 || heights.width > kMostCells ||
-      heights.height > kMostCells) {
+  if (heights.width < 1 || heights.height < 1 || heights.width > kMostTerrainCells ||
+      heights.height > kMostTerrainCells) {
     return invalid_input(text("heights are ", heights.width, "x", heights.height,
-                              " cells; a side must be in [1, ", kMostCells, "]"));
+                              " cells; a side must be in [1, ", kMostTerrainCells, "]"));
   }
   if (Status s = check_side("cell_width", model.cell_width); !s.ok()) return s;
   if (Status s = check_side("cell_height", model.cell_height); !s.ok()) return s;
@@ -143,9 +142,9 @@ Status check_terrain_band(const ElevationModel& model, const TerrainBand& band,
     return invalid_argument(text("inner is ", inner.width, " cells wide; a band's is as wide as ",
                                  "the model, ", model.heights.width));
   }
-  if (band.height < 1 || band.height > kMostCells) {
+  if (band.height < 1 || band.height > kMostTerrainCells) {
     return invalid_input(
-        text("band.height is ", band.height, "; it must be in [1, ", kMostCells, "]"));
+        text("band.height is ", band.height, "; it must be in [1, ", kMostTerrainCells, "]"));
   }
   if (Status s = check_terrain(model, settings, outputs, band.height); !s.ok()) return s;
   const int rows = model.heights.height;

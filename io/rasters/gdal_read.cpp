@@ -121,6 +121,19 @@ void read_tags(GDALDatasetH dataset, GDALRasterBandH band, Georeference* r) {
   if (has) r->nodata = nodata;
 }
 
+// Blocks that are not in a file are zeros to GDAL, where the file names no other value: a header
+// that says it has more rows than it has, or a mosaic with gaps.
+Status check_blocks(const std::string& path, GDALRasterBandH band, const RasterWindow& window) {
+  const int coverage =
+      GDALGetDataCoverageStatus(band, window.x, window.y, window.width, window.height,
+                                GDAL_DATA_COVERAGE_STATUS_EMPTY, nullptr);
+  if ((coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) == 0) return {};
+  return invalid_input(
+      fmt::format("{} lacks some of the cells that it says it has; give --nodata 0 if there are "
+                  "none, or --nodata none if they are heights of 0",
+                  path));
+}
+
 // Rows as doubles, so that integers of any size and scaled ones keep their values until they are
 // heights.
 Status read_rows(const std::string& path, GDALRasterBandH band, const RasterOptions& options,
@@ -181,11 +194,14 @@ Status read_gdal(const std::string& path, const RasterOptions& options, Raster* 
     const auto first = result.row_widths.begin() + window.y;
     result.row_widths = std::vector<double>(first, first + window.height);
   }
+  const bool knows_nodata = reference->nodata || (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0;
+  if (!knows_nodata && options.nodata.empty()) {
+    if (Status s = check_blocks(path, band, window); !s.ok()) return s;
+  }
   result.heights.resize(static_cast<std::size_t>(result.width) * result.height);
   if (Status s = read_rows(path, band, options, window, reference->south_up, &result); !s.ok()) {
     return s;
   }
-  const bool knows_nodata = reference->nodata || (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0;
   result.georeference = std::move(reference);
   RasterOptions nodata = options;
   if (knows_nodata && nodata.nodata.empty()) nodata.nodata = "none";

@@ -192,9 +192,12 @@ TEST_F(TerrainHostile, ModelsThatNoMachineHolds) {
   huge(900000);
   const std::string line = "terrain in.vrt -q -o x.tif";
   expect_failure(line, 3, "more than this machine has");
-  expect_failure(line + " --memory 2G", 3, "--memory computes up to 262144 a side");
+  expect_failure(line + " --tile 4096", 3, "lacks some of the cells");
+  expect_failure(line + " --nodata none --memory 2G", 3, "--memory computes up to 262144 a side");
   huge(262144);
-  expect_failure(line + " --memory 100M", 2, "do not hold a band of rows; give at least");
+  expect_failure(line + " --memory 100M", 3, "lacks some of the cells");
+  expect_failure(line + " --nodata none --memory 100M", 2,
+                 "do not hold a band of rows; give at least");
   EXPECT_FALSE(std::filesystem::exists(path("x.tif.bands")));
   EXPECT_FALSE(std::filesystem::exists(path("x.tif.tiles")));
 }

@@ -254,10 +254,15 @@ void octants(benchmark::State& state) {
   std::vector<Seconds> times;
   for (auto _ : state) {
     times.push_back(seconds_of([&] {
-      executor->parallel_for(2, [&](int half, int) {
-        sweep_occlusion_u8(
+      std::vector<OcclusionSweep> halves;
+      for (int half = 0; half < 2; ++half) {
+        halves.push_back(
             {tau.data(), g.size, half == 0, scheme.directions.data(), 1, out[half].data()});
-      });
+      }
+      const int workers = executor->thread_count();
+      OcclusionPipeline pipeline(halves, workers);
+      executor->parallel_for(workers,
+                             [&](int worker, int) { pipeline.work(worker, [] { return true; }); });
     }));
     state.SetIterationTime(times.back().wall);
   }
@@ -293,6 +298,18 @@ void transport(benchmark::State& state) {
   }
   report(state, times, g.voxels(), 0);
   state.counters["bytes/voxel"] = double(field.bytes()) / g.voxels();
+  // The sweep's work and longest chain, in strips of rows.
+  const TransportScheme scheme = transport_scheme(settings.transport, {1, 1, 1});
+  std::vector<OcclusionSweep> halves(2);
+  for (OcclusionSweep& half : halves) {
+    half.size = field.size();
+    half.directions = scheme.directions.data();
+    half.count = static_cast<int>(scheme.directions.size());
+  }
+  const OcclusionPipeline::Count count = OcclusionPipeline(halves, 1).count();
+  state.counters["work"] = double(count.work);
+  state.counters["span"] = double(count.span);
+  state.counters["work/span"] = double(count.work) / double(count.span);
 }
 BENCHMARK(transport)
     ->Name("volume_transport")

@@ -8,7 +8,9 @@ set_tests_properties(
   Moments.ThreadsAndTargetsAgree
   Distance.BitsDoNotDependOnThreads
   VolumeRange.IsThatOfPlainLoopsForAnyThreads
-  Occlusion.BitsDoNotDependOnThreads
+  OcclusionThreads.BitsDoNotDependOnThreads
+  OcclusionThreads.NoWorkerWaitsForOneThatHasNotBegun
+  OcclusionThreads.CancelsOnManyThreads
   Surface.SameBitsForAnyThreadsAndCloseOnEveryTarget
   TerrainAgreement.SameBitsForAnyNumberOfThreads
   RunThreads.ExecutorsWithoutThreadsAndNumbersOutOfRangeAreRefused

@@ -59,7 +59,7 @@ Status sweep(GridView<const float> distance, const OcclusionSettings& settings,
     }
   });
   Progress progress(settings.precision == VisibilityPrecision::kU8
-                        ? 2
+                        ? std::int64_t{2} * f.size[2]
                         : static_cast<std::int64_t>(2 * f.channels()),
                     run.progress);
   if (settings.precision == VisibilityPrecision::kU8) f.take_bytes(&field->impl());

@@ -4,7 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
+
+#include "obscura/executor.h"
 
 namespace obscura {
 
@@ -42,6 +46,38 @@ struct OcclusionSweep {
 inline constexpr int kQuadrantOfSlot[4] = {0, 3, 1, 2};
 inline constexpr int kSlotOfQuadrant[4] = {0, 2, 3, 1};
 
+// Sweeps of one size of grid on several threads. Each thread takes the next plane along z and
+// follows the plane before it: direction by direction, two strips of rows behind, so that a strip
+// finds its own of the plane before, and overwrites no values that are still read. The values do
+// not depend on who computes them, nor when: the bits are those of one thread.
+class OcclusionPipeline {
+ public:
+  // Takes all memory. `workers`: most threads at the same time.
+  OcclusionPipeline(std::span<const OcclusionSweep> sweeps, int workers);
+  ~OcclusionPipeline();
+
+  // More workers than this would only wait.
+  static int most_workers(const OcclusionSweep& sweep);
+
+  // Sweeps planes until all are taken or `done`, called after each, says false. Called once for
+  // each worker in [0, workers), at the same time or one after another.
+  void work(int worker, FunctionRef<bool()> done);
+
+  // Strips of the whole sweep, each of one direction or of those swept together, and those of the
+  // longest chain in which each must wait for the one before.
+  struct Count {
+    std::int64_t work = 0, span = 0;
+  };
+  Count count() const;
+
+ private:
+  struct Half;
+  struct Scratch;
+  std::vector<std::unique_ptr<Half>> halves_;
+  std::vector<Scratch> scratch_;
+};
+
+// One sweep in the calling thread.
 void sweep_occlusion_u8(const OcclusionSweep& sweep);
 
 // The same in floats by plain loops, with one quadrant and direction per call; `visibility` is that

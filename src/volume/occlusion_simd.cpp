@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,93 +17,126 @@
 #include "volume/strip_store-inl.h"
 #include "volume/strip_walk-inl.h"
 
+#ifndef OBSCURA_OCCLUSION_SIMD_ONCE
+#define OBSCURA_OCCLUSION_SIMD_ONCE
+namespace obscura {
+
+// Elements of the memory that a sweep needs.
+struct OcclusionSizes {
+  int strips = 0, groups = 0;   // of a plane; of directions swept together
+  std::size_t plane_state = 0;  // of all channels
+  std::size_t opacity = 0, out = 0, tau_rows = 0, out_rows = 0;  // of a worker
+};
+struct OcclusionMemory {
+  std::int16_t *now, *before;  // the same where the stencil reads the voxel's own value only
+  std::int16_t* opacity;
+  std::uint8_t *out, *tau_rows, *out_rows;
+};
+
+inline void wait_for(const std::atomic<int>& counter, int value) {
+  for (int spins = 0; counter.load(std::memory_order_acquire) < value; ++spins) {
+    if (spins > 64) std::this_thread::yield();
+  }
+}
+
+}  // namespace obscura
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 
-template <class T>
-T* Aligned(std::vector<T>& storage) {
-  const auto address = reinterpret_cast<std::uintptr_t>(storage.data());
-  return storage.data() + (64 - address % 64) % 64 / sizeof(T);
+Layout LayoutOf(const OcclusionSweep& sweep) {
+  return {(sweep.size[1] + kRows - 1) / kRows,
+          (sweep.size[0] + kRows - 1 + kBlock - 1) / kBlock * kBlock};
 }
 
-void SweepOcclusion(const OcclusionSweep& sweep) {
+// How many directions from the i-th on are swept together. The upwind stencil needs few registers
+// and has a long latency, so three directions share wide registers.
+int Together(const OcclusionSweep& sweep, int i) {
+  const bool upwind = sweep.directions[i].stencil == Stencil::kUpwind;
+  return kSides == 2 && upwind && i + 3 <= sweep.count ? 3 : 1;
+}
+
+OcclusionSizes SizesOf(const OcclusionSweep& sweep) {
+  const Layout layout = LayoutOf(sweep);
+  const auto plane = static_cast<std::size_t>(layout.strips * layout.strip_size());
+  const auto pitch = static_cast<std::size_t>(layout.steps + 3 * kBlock);
+  const auto channels = static_cast<std::size_t>(4 * sweep.count);
+  OcclusionSizes sizes;
+  sizes.strips = layout.strips;
+  for (int i = 0; i < sweep.count; i += Together(sweep, i)) ++sizes.groups;
+  sizes.plane_state = channels * plane;
+  sizes.opacity = 2 * plane;
+  sizes.out = channels * plane;
+  sizes.tau_rows = kRows * pitch;
+  sizes.out_rows = 4 * kRows * pitch;
+  return sizes;
+}
+
+// Sweeps plane k. Every strip waits for `before`, unless null, to be two strips ahead.
+void SweepPlane(const OcclusionSweep& sweep, int k, const OcclusionMemory& memory,
+                const std::atomic<int>* before, std::atomic<int>* done) {
   const int width = sweep.size[0], height = sweep.size[1], depth = sweep.size[2];
   const int channels = 4 * sweep.count;
-  const Layout layout{(height + kRows - 1) / kRows,
-                      (width + kRows - 1 + kBlock - 1) / kBlock * kBlock};
+  const Layout layout = LayoutOf(sweep);
   const std::ptrdiff_t plane = layout.strips * layout.strip_size();
   const std::ptrdiff_t pitch = layout.steps + 3 * kBlock;
-  const std::size_t spare = 64;
-  std::vector<std::uint8_t> tau_rows(static_cast<std::size_t>(kRows * pitch) + spare, 255);
-  std::vector<std::int16_t> opacity_storage(static_cast<std::size_t>(2 * plane) + spare);
-  // The previous plane needs memory of its own if the stencil reads more of it than the voxel's own
-  // value.
-  const bool apart = sweep.directions[0].stencil == Stencil::kCharacteristic;
-  std::vector<std::int16_t> state(
-      (apart ? 2 : 1) * static_cast<std::size_t>(channels * plane) + spare, kOne);
-  std::vector<std::uint8_t> out_storage(static_cast<std::size_t>(channels * plane) + spare);
-  std::vector<std::uint8_t> rows_storage(static_cast<std::size_t>(4 * kRows * pitch) + spare);
-  std::uint8_t* plain_rows = Aligned(tau_rows);
-  std::int16_t* opacity = Aligned(opacity_storage);
-  std::int16_t* now = Aligned(state);
-  std::int16_t* before = apart ? now + channels * plane : now;
-  std::uint8_t* out = Aligned(out_storage);
-  std::uint8_t* out_rows = Aligned(rows_storage);
-
-  for (int k = 0; k < depth; ++k) {
-    const int z = sweep.rising ? k : depth - 1 - k;
-    const std::ptrdiff_t voxels = static_cast<std::ptrdiff_t>(width) * height;
-    for (int m = 0; m < 2; ++m) {
-      SkewPlane(layout, sweep.tau + z * voxels, width, height, m == 1, plain_rows, pitch,
-                opacity + m * (kSides == 2 ? kRows : plane));
-    }
-    Order orders[kMaxDirections * kGroups];
-    for (int i = 0; i < sweep.count; ++i) {
-      for (int g = 0; g < kGroups; ++g) {
-        const std::ptrdiff_t at = (i * kGroups + g) * plane * kSides;
-        Order& o = orders[i * kGroups + g];
-        o = {now + at, before + at, opacity + g / 2 * plane, {}};
-        for (int side = 0; side < kSides; ++side) {
-          o.out[side] = out + ((g + 2 * side) * sweep.count + i) * plane;
-        }
+  std::int16_t* const opacity = memory.opacity;
+  std::uint8_t* const out = memory.out;
+  const int z = sweep.rising ? k : depth - 1 - k;
+  const std::ptrdiff_t voxels = static_cast<std::ptrdiff_t>(width) * height;
+  for (int m = 0; m < 2; ++m) {
+    SkewPlane(layout, sweep.tau + z * voxels, width, height, m == 1, memory.tau_rows, pitch,
+              opacity + m * (kSides == 2 ? kRows : plane));
+  }
+  Order orders[kMaxDirections * kGroups];
+  for (int i = 0; i < sweep.count; ++i) {
+    for (int g = 0; g < kGroups; ++g) {
+      const std::ptrdiff_t at = (i * kGroups + g) * plane * kSides;
+      Order& o = orders[i * kGroups + g];
+      o = {memory.now + at, memory.before + at, opacity + g / 2 * plane, {}};
+      for (int side = 0; side < kSides; ++side) {
+        o.out[side] = out + ((g + 2 * side) * sweep.count + i) * plane;
       }
     }
-    for (int i = 0, together = 1; i < sweep.count; i += together) {
-      const SweepDirection* dir = sweep.directions + i;
-      // The upwind stencil needs few registers and has a long latency, so three directions are
-      // swept together in wide registers.
-      const bool three = kSides == 2 && dir->stencil == Stencil::kUpwind && i + 3 <= sweep.count;
-      together = three ? 3 : 1;
-      (three ? SweepAlike<3> : SweepAlike<1>)(layout, orders + i * kGroups, dir);
-    }
-    if (apart) std::swap(now, before);
-
-    // Orders 0 ... 3 sweep x and y up, both down, x down and y up, x up and y down.
+  }
+  int finished = 0;
+  for (int i = 0, together = 1; i < sweep.count; i += together) {
+    together = Together(sweep, i);
+    const auto sweep_strip = together == 3 ? SweepAlike<3> : SweepAlike<1>;
+    const int all = finished + layout.strips;
     for (int s = 0; s < layout.strips; ++s) {
-      const std::uint8_t* skewed[4 * kMaxDirections];
-      for (int c = 0; c < channels; ++c) skewed[c] = out + c * plane + s * layout.strip_size();
-      const int rows = std::min(kRows, height - s * kRows);
-      std::uint8_t* to = sweep.visibility +
-                         (z * voxels + static_cast<std::ptrdiff_t>(s) * kRows * width) * channels;
-      const std::uint8_t* next = to + static_cast<std::ptrdiff_t>(rows) * width * channels;
-      const Strip strip{skewed, layout.steps, rows, width, to, channels, next};
-      switch (sweep.count) {
-        case 1:
-          StoreRows(layout, skewed, rows, width, out_rows, pitch, to);
-          break;
-        case 3:
-          StoreHalves<3>(strip);
-          break;
-        case 6:
-          StoreHalves<6>(strip);
-          break;
-        case 10:
-          StoreHalves<10>(strip);
-          break;
-        default:
-          HWY_ABORT("no transport has %d directions", sweep.count);
-      }
+      if (before) wait_for(*before, std::min(finished + 2, all));
+      sweep_strip(layout, orders + i * kGroups, sweep.directions + i, s);
+      done->store(++finished, std::memory_order_release);
+    }
+  }
+
+  // Orders 0 ... 3 sweep x and y up, both down, x down and y up, x up and y down.
+  for (int s = 0; s < layout.strips; ++s) {
+    const std::uint8_t* skewed[4 * kMaxDirections];
+    for (int c = 0; c < channels; ++c) skewed[c] = out + c * plane + s * layout.strip_size();
+    const int rows = std::min(kRows, height - s * kRows);
+    std::uint8_t* to =
+        sweep.visibility + (z * voxels + static_cast<std::ptrdiff_t>(s) * kRows * width) * channels;
+    const std::uint8_t* next = to + static_cast<std::ptrdiff_t>(rows) * width * channels;
+    const Strip strip{skewed, layout.steps, rows, width, to, channels, next};
+    switch (sweep.count) {
+      case 1:
+        StoreRows(layout, skewed, rows, width, memory.out_rows, pitch, to);
+        break;
+      case 3:
+        StoreHalves<3>(strip);
+        break;
+      case 6:
+        StoreHalves<6>(strip);
+        break;
+      case 10:
+        StoreHalves<10>(strip);
+        break;
+      default:
+        HWY_ABORT("no transport has %d directions", sweep.count);
     }
   }
 }
@@ -111,10 +147,105 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace obscura {
-HWY_EXPORT(SweepOcclusion);
+HWY_EXPORT(SizesOf);
+HWY_EXPORT(SweepPlane);
+
+namespace {
+
+// Elements on a cache line of their own.
+template <class T>
+class Lines {
+ public:
+  Lines(std::size_t count, T value) : storage_(count + kLine, value) {}
+  T* data() {
+    const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
+    return storage_.data() + (64 - address % 64) % 64 / sizeof(T);
+  }
+
+ private:
+  static constexpr std::size_t kLine = 64;
+  std::vector<T> storage_;
+};
+
+struct alignas(64) PlaneCount {
+  std::atomic<int> strips{0};
+};
+
+}  // namespace
+
+struct OcclusionPipeline::Half {
+  Half(const OcclusionSweep& s, const OcclusionSizes& sizes)
+      : sweep(s),
+        // The previous plane needs memory of its own if the stencil reads more of it than the
+        // voxel's own value.
+        apart(s.directions[0].stencil == Stencil::kCharacteristic),
+        plane(sizes.plane_state),
+        state((apart ? 2 : 1) * sizes.plane_state, 32767),
+        counts(static_cast<std::size_t>(s.size[2])) {}
+
+  OcclusionSweep sweep;
+  bool apart;
+  std::size_t plane;
+  Lines<std::int16_t> state;
+  std::vector<PlaneCount> counts;
+  std::atomic<int> next{0};
+};
+
+struct OcclusionPipeline::Scratch {
+  explicit Scratch(const OcclusionSizes& sizes)
+      : opacity(sizes.opacity, 0),
+        out(sizes.out, 0),
+        tau_rows(sizes.tau_rows, 255),
+        out_rows(sizes.out_rows, 0) {}
+
+  Lines<std::int16_t> opacity;
+  Lines<std::uint8_t> out, tau_rows, out_rows;
+};
+
+OcclusionPipeline::OcclusionPipeline(std::span<const OcclusionSweep> sweeps, int workers) {
+  const OcclusionSizes sizes = HWY_DYNAMIC_DISPATCH(SizesOf)(sweeps[0]);
+  for (const OcclusionSweep& s : sweeps) halves_.push_back(std::make_unique<Half>(s, sizes));
+  for (int i = 0; i < workers; ++i) scratch_.emplace_back(sizes);
+}
+OcclusionPipeline::~OcclusionPipeline() = default;
+
+int OcclusionPipeline::most_workers(const OcclusionSweep& sweep) {
+  const OcclusionSizes sizes = HWY_DYNAMIC_DISPATCH(SizesOf)(sweep);
+  return std::min(sweep.size[2], sizes.strips * sizes.groups + 2);
+}
+
+void OcclusionPipeline::work(int worker, FunctionRef<bool()> done) {
+  Scratch& mine = scratch_[static_cast<std::size_t>(worker)];
+  const std::size_t count = halves_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    // Workers stay with one half as long as it has planes.
+    Half& half = *halves_[(static_cast<std::size_t>(worker) + i) % count];
+    // A plane that is taken is swept to its end, as the next one may wait for it.
+    for (int k = half.next++; k < half.sweep.size[2]; k = half.next++) {
+      std::int16_t* const even = half.state.data();
+      std::int16_t* const odd = half.apart ? even + half.plane : even;
+      const OcclusionMemory memory{k % 2 ? odd : even, k % 2 ? even : odd,   mine.opacity.data(),
+                                   mine.out.data(),    mine.tau_rows.data(), mine.out_rows.data()};
+      const auto at = static_cast<std::size_t>(k);
+      HWY_DYNAMIC_DISPATCH(SweepPlane)
+      (half.sweep, k, memory, k > 0 ? &half.counts[at - 1].strips : nullptr,
+       &half.counts[at].strips);
+      if (!done()) return;
+    }
+  }
+}
+
+OcclusionPipeline::Count OcclusionPipeline::count() const {
+  const OcclusionSweep& sweep = halves_[0]->sweep;
+  const OcclusionSizes sizes = HWY_DYNAMIC_DISPATCH(SizesOf)(sweep);
+  const std::int64_t plane = std::int64_t{sizes.strips} * sizes.groups, depth = sweep.size[2];
+  // Each plane begins two strips after the one before; the last is swept to its end.
+  return {plane * depth * static_cast<std::int64_t>(halves_.size()),
+          std::min<std::int64_t>(2, plane) * (depth - 1) + plane};
+}
 
 void sweep_occlusion_u8(const OcclusionSweep& sweep) {
-  HWY_DYNAMIC_DISPATCH(SweepOcclusion)(sweep);
+  OcclusionPipeline(std::span(&sweep, 1), 1).work(0, [] { return true; });
 }
 
 }  // namespace obscura

@@ -87,9 +87,10 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
     }
   });
   const int half = static_cast<int>(kShadowOctant >> 2);
-  Progress progress(
-      settings.precision == VisibilityPrecision::kU8 ? 1 : static_cast<std::int64_t>(f.channels()),
-      run.progress);
+  Progress progress(settings.precision == VisibilityPrecision::kU8
+                        ? f.size[2]
+                        : static_cast<std::int64_t>(f.channels()),
+                    run.progress);
   sweep_halves(tau.data(), settings, 1 << half, executor, progress, &f);
   if (progress.cancelled()) return sweep_cancelled();
   *field = std::move(result);

@@ -148,43 +148,43 @@ class StripWalk {
   std::ptrdiff_t at_, other_;
 };
 
-// Sweeps directions with one stencil in all four orders at the same time: each waits for its own
-// previous vector, and meanwhile the others are computed.
+// Sweeps directions with one stencil in all four orders at the same time, each through one strip:
+// those that go forward through strip s, those that go backward through the s-th from the end. Each
+// waits for its own previous vector, and meanwhile the others are computed.
 template <int kAxis, std::size_t... kWalks>
 void SweepDirections(const Layout& layout, const Order* orders, const SweepDirection* directions,
-                     std::index_sequence<kWalks...>) {
+                     int s, std::index_sequence<kWalks...>) {
   const int steps = layout.steps;
-  for (int s = 0; s < layout.strips; ++s) {
-    // Walk i is of direction i / pairs and of the lane groups 2 (i % pairs) and one more.
-    constexpr int kPairs = kGroups / 2;
-    StripWalk<true, kAxis> up[sizeof...(kWalks)];
-    StripWalk<false, kAxis> down[sizeof...(kWalks)];
-    (up[kWalks].start(layout, orders[2 * kWalks], directions[kWalks / kPairs], s), ...);
-    (down[kWalks].start(layout, orders[2 * kWalks + 1], directions[kWalks / kPairs], s), ...);
-    int t = 0;
-    if (s > 0) {
-      for (; t < steps - kRows + 1; ++t) {
-        ((up[kWalks].template step<true>(), down[kWalks].template step<true>()), ...);
-      }
+  // Walk i is of direction i / pairs and of the lane groups 2 (i % pairs) and one more.
+  constexpr int kPairs = kGroups / 2;
+  StripWalk<true, kAxis> up[sizeof...(kWalks)];
+  StripWalk<false, kAxis> down[sizeof...(kWalks)];
+  (up[kWalks].start(layout, orders[2 * kWalks], directions[kWalks / kPairs], s), ...);
+  (down[kWalks].start(layout, orders[2 * kWalks + 1], directions[kWalks / kPairs], s), ...);
+  int t = 0;
+  if (s > 0) {
+    for (; t < steps - kRows + 1; ++t) {
+      ((up[kWalks].template step<true>(), down[kWalks].template step<true>()), ...);
     }
-    for (; t < steps; ++t) {
-      ((up[kWalks].template step<false>(), down[kWalks].template step<false>()), ...);
-    }
+  }
+  for (; t < steps; ++t) {
+    ((up[kWalks].template step<false>(), down[kWalks].template step<false>()), ...);
   }
 }
 
 // kTogether directions with the stencil of the first.
 template <int kTogether>
-void SweepAlike(const Layout& layout, const Order* orders, const SweepDirection* directions) {
+void SweepAlike(const Layout& layout, const Order* orders, const SweepDirection* directions,
+                int strip) {
   constexpr std::make_index_sequence<kTogether * kGroups / 2> kWalks;
   if (directions->stencil == Stencil::kUpwind) {
-    SweepDirections<-1>(layout, orders, directions, kWalks);
+    SweepDirections<-1>(layout, orders, directions, strip, kWalks);
   } else if (directions->axis == 0) {
-    SweepDirections<0>(layout, orders, directions, kWalks);
+    SweepDirections<0>(layout, orders, directions, strip, kWalks);
   } else if (directions->axis == 1) {
-    SweepDirections<1>(layout, orders, directions, kWalks);
+    SweepDirections<1>(layout, orders, directions, strip, kWalks);
   } else {
-    SweepDirections<2>(layout, orders, directions, kWalks);
+    SweepDirections<2>(layout, orders, directions, strip, kWalks);
   }
 }
 

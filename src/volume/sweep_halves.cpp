@@ -1,5 +1,6 @@
 #include "volume/sweep_halves.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -17,11 +18,17 @@ void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, in
         field->bytes[half].reset(new std::uint8_t[samples]);
       }
     }
-    executor.parallel_for(2, [&](int half, int) {
-      if (!(halves >> half & 1) || progress.cancelled()) return;
-      sweep_occlusion_u8(
+    std::vector<OcclusionSweep> sweeps;
+    for (int half = 0; half < 2; ++half) {
+      if (!(halves >> half & 1)) continue;
+      sweeps.push_back(
           {tau, field->size, half == 0, directions, field->directions(), field->bytes[half].get()});
-      progress.advance();
+    }
+    const int useful = OcclusionPipeline::most_workers(sweeps[0]) * static_cast<int>(sweeps.size());
+    const int workers = std::min(executor.thread_count(), useful);
+    OcclusionPipeline pipeline(sweeps, workers);
+    executor.parallel_for(workers, [&](int worker, int) {
+      if (!progress.cancelled()) pipeline.work(worker, [&] { return progress.advance(); });
     });
     return;
   }

@@ -118,25 +118,6 @@ TEST(Occlusion, PaperIsEquation6) {
   }
 }
 
-TEST(Occlusion, BitsDoNotDependOnThreads) {
-  const Grid d = blobs({45, 31, 26});
-  std::vector<SurfacePoint> points;
-  for (int i = 0; i < 3000; ++i) {
-    points.push_back(
-        {{float(i % 45), float(i % 31), float(i % 26)}, unit(i % 7 - 3, i % 5 - 2, 1)});
-  }
-  for (Transport t : kAll) {
-    const VisibilityField one = field_of(d, {.transport = t}, 1),
-                          two = field_of(d, {.transport = t}, 5);
-    Grid a(one.size()), b(one.size());
-    for (int s = 0; s < 8; ++s) {
-      ASSERT_TRUE(one.octant(s, out_of(a)).ok());
-      ASSERT_TRUE(two.octant(s, out_of(b)).ok());
-      ASSERT_EQ(a.v, b.v);
-    }
-  }
-}
-
 TEST(Occlusion, APlaneIsOpenWhateverItsTiltAndOffset) {
   std::mt19937 rng(7);
   std::normal_distribution<double> normal;

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "core/wait_count.h"
 #include "volume/occlusion_kernel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -32,12 +32,6 @@ struct OcclusionMemory {
   std::int16_t* opacity;
   std::uint8_t *out, *tau_rows, *out_rows;
 };
-
-inline void wait_for(const std::atomic<int>& counter, int value) {
-  for (int spins = 0; counter.load(std::memory_order_acquire) < value; ++spins) {
-    if (spins > 64) std::this_thread::yield();
-  }
-}
 
 }  // namespace obscura
 #endif
@@ -76,7 +70,7 @@ OcclusionSizes SizesOf(const OcclusionSweep& sweep) {
 
 // Sweeps plane k. Every strip waits for `before`, unless null, to be two strips ahead.
 void SweepPlane(const OcclusionSweep& sweep, int k, const OcclusionMemory& memory,
-                const std::atomic<int>* before, std::atomic<int>* done) {
+                const WaitCount* before, WaitCount* done) {
   const int width = sweep.size[0], height = sweep.size[1], depth = sweep.size[2];
   const int channels = 4 * sweep.count;
   const Layout layout = LayoutOf(sweep);
@@ -107,9 +101,9 @@ void SweepPlane(const OcclusionSweep& sweep, int k, const OcclusionMemory& memor
     const auto sweep_strip = together == 3 ? SweepAlike<3> : SweepAlike<1>;
     const int all = finished + layout.strips;
     for (int s = 0; s < layout.strips; ++s) {
-      if (before) wait_for(*before, std::min(finished + 2, all));
+      if (before) before->wait_for(std::min(finished + 2, all));
       sweep_strip(layout, orders + i * kGroups, sweep.directions + i, s);
-      done->store(++finished, std::memory_order_release);
+      done->set(++finished);
     }
   }
 
@@ -167,10 +161,6 @@ class Lines {
   std::vector<T> storage_;
 };
 
-struct alignas(64) PlaneCount {
-  std::atomic<int> strips{0};
-};
-
 }  // namespace
 
 struct OcclusionPipeline::Half {
@@ -187,7 +177,7 @@ struct OcclusionPipeline::Half {
   bool apart;
   std::size_t plane;
   Lines<std::int16_t> state;
-  std::vector<PlaneCount> counts;
+  std::vector<WaitCount> counts;  // of each plane's strips
   std::atomic<int> next{0};
 };
 
@@ -228,8 +218,7 @@ void OcclusionPipeline::work(int worker, FunctionRef<bool()> done) {
                                    mine.out.data(),    mine.tau_rows.data(), mine.out_rows.data()};
       const auto at = static_cast<std::size_t>(k);
       HWY_DYNAMIC_DISPATCH(SweepPlane)
-      (half.sweep, k, memory, k > 0 ? &half.counts[at - 1].strips : nullptr,
-       &half.counts[at].strips);
+      (half.sweep, k, memory, k > 0 ? &half.counts[at - 1] : nullptr, &half.counts[at]);
       if (!done()) return;
     }
   }

@@ -57,7 +57,7 @@ void BackendOptions::add_to(CLI::App* command) {
           "--device", device_,
           "Vulkan device by its number in `obscura info --devices` [default the first that "
           "is not software, or the first]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 65535))
       ->type_name("N");
 }
 

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -13,13 +16,26 @@
 namespace obscura::app {
 namespace {
 
-// One line on stderr, whatever the message holds.
-int fail(std::string message, int code) {
-  for (char& c : message) {
-    if (c == '\n' || c == '\r') c = ' ';
+// One line on stderr, whatever the message holds: no byte that could steer a terminal, long words
+// (paths, tokens of damaged files) cut in their middle, at most 300 characters.
+int fail(const std::string& message, int code) {
+  constexpr std::size_t kLongestWord = 120, kLongest = 300;
+  std::string line;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t end = std::min(message.find(' ', at), message.size());
+    std::string word = message.substr(at, end - at);
+    for (char& c : word) {
+      if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+    }
+    if (word.size() > kLongestWord) {
+      word = word.substr(0, kLongestWord / 2) + "..." + word.substr(word.size() - kLongestWord / 2);
+    }
+    line += (line.empty() ? "" : " ") + word;
+    at = end + 1;
   }
-  while (!message.empty() && message.back() == ' ') message.pop_back();
-  fmt::print(stderr, "obscura: {}\n", message);
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  if (line.size() > kLongest) line = line.substr(0, kLongest - 3) + "...";
+  fmt::print(stderr, "obscura: {}\n", line);
   return code;
 }
 
@@ -76,7 +92,12 @@ int run(int argc, char** argv) {
   if (Status s = limit_simd_from_environment(); !s.ok()) return fail(s.message(), kBadUsage);
   tools::catch_interrupts();
   const Status status = app.action();
-  return status.ok() ? kDone : fail(status.message(), exit_code(status));
+  if (!status.ok()) return fail(status.message(), exit_code(status));
+  // A full disk or a closed pipe behind standard output shows only now.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return fail(fmt::format("cannot write to standard output: {}", std::strerror(errno)), kFailure);
+  }
+  return kDone;
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "fmt/format.h"
 
@@ -28,6 +30,107 @@ mode_t wanted_mode(const std::string& path) {
   umask(mask);
   return 0666 & ~mask;
 }
+
+// Names of temporary files that stand in folders now, for remove_temporaries(). A slot's owner sets
+// its name before it says so.
+struct Slot {
+  std::atomic<int> state{0};  // 0: free, 1: being changed, 2: there is a file
+  char name[4200];
+};
+Slot g_slots[64];
+
+class TemporaryName {
+ public:
+  // Before the file is made, so that it cannot be missed.
+  explicit TemporaryName(const std::string& name) {
+    if (name.size() >= sizeof(Slot::name)) return;
+    for (Slot& slot : g_slots) {
+      int free = 0;
+      if (!slot.state.compare_exchange_strong(free, 1)) continue;
+      std::memcpy(slot.name, name.c_str(), name.size() + 1);
+      slot.state = 2;
+      slot_ = &slot;
+      return;
+    }
+  }
+  ~TemporaryName() {
+    if (slot_) slot_->state = 0;
+  }
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+
+ private:
+  Slot* slot_ = nullptr;
+};
+
+// The file that is written before it takes its name. Where the system has files without a name, it
+// gets one only when it is whole, so that nothing is left even where the process is killed.
+class Temporary {
+ public:
+  explicit Temporary(const std::string& target)
+      : folder_(std::filesystem::path(target).parent_path().string()) {
+    if (folder_.empty()) folder_ = ".";
+#ifdef O_TMPFILE
+    file_ = open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (file_ >= 0) {
+      path_ = fmt::format("/proc/self/fd/{}", file_);
+      if (access(path_.c_str(), W_OK) == 0) return;
+      close(file_);
+    }
+#endif
+    path_ = folder_ + "/.obscura-XXXXXX";
+    file_ = mkstemp(path_.data());
+    if (file_ < 0) return;
+    named_ = true;
+    registered_.emplace(path_);
+  }
+  ~Temporary() {
+    if (file_ >= 0) close(file_);
+    if (named_) unlink(path_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  int file() const { return file_; }
+  const std::string& path() const { return path_; }  // opens the file
+
+  // Gives the file its name, in place of an older file. 0 or errno.
+  int take_name(const std::string& target) {
+    if (fsync(file_) != 0 && errno != EINVAL) return errno;
+    if (!named_) {
+      // A link cannot replace a file: it gets a name of its own first, for a moment.
+      if (const int error = link_beside(); error != 0) return error;
+    }
+    const int closed = close(file_);
+    file_ = -1;
+    if (closed != 0) return errno;
+    if (std::rename(path_.c_str(), target.c_str()) != 0) return errno;
+    named_ = false;
+    return 0;
+  }
+
+ private:
+  int link_beside() {
+    const std::string open_file = path_;
+    for (int i = 0; i < 1000; ++i) {
+      path_ = fmt::format("{}/.obscura-{}-{}", folder_, getpid(), g_count++);
+      registered_.emplace(path_);
+      if (linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+        named_ = true;
+        return 0;
+      }
+      registered_.reset();
+      if (errno != EEXIST) break;
+    }
+    return errno;
+  }
+
+  static inline std::atomic<unsigned> g_count{0};
+  std::string folder_, path_;
+  int file_ = -1;
+  bool named_ = false;
+  std::optional<TemporaryName> registered_;
+};
 
 // Runs `write` on the file `temporary`, which messages shall call `path`.
 Status attempt(const std::string& path, const std::string& temporary,
@@ -62,22 +165,21 @@ Status write_atomically(const std::string& path,
   // A link stays a link.
   const bool link = fs::is_symlink(path, error) && fs::exists(path, error);
   const std::string target = link ? fs::canonical(path, error).string() : path;
-  std::string temporary = target + ".XXXXXX";
-  const int file = mkstemp(temporary.data());
-  if (file < 0) return cannot("write", path, std::strerror(errno));
-  Status status = attempt(path, temporary, write);
-  if (status.ok() && fchmod(file, wanted_mode(target)) != 0 && errno != EPERM) {
-    status = cannot("write", path, std::strerror(errno));
+  Temporary temporary(target);
+  if (temporary.file() < 0) return cannot("write", path, std::strerror(errno));
+  Status status = attempt(path, temporary.path(), write);
+  if (!status.ok()) return status;
+  if (fchmod(temporary.file(), wanted_mode(target)) != 0 && errno != EPERM) {
+    return cannot("write", path, std::strerror(errno));
   }
-  if (status.ok() && fsync(file) != 0 && errno != EINVAL) {
-    status = cannot("write", path, std::strerror(errno));
+  const int error_number = temporary.take_name(target);
+  return error_number == 0 ? Status() : cannot("write", path, std::strerror(error_number));
+}
+
+void remove_temporaries() {
+  for (const Slot& slot : g_slots) {
+    if (slot.state == 2) unlink(slot.name);
   }
-  if (close(file) != 0 && status.ok()) status = cannot("write", path, std::strerror(errno));
-  if (status.ok() && std::rename(temporary.c_str(), target.c_str()) != 0) {
-    status = cannot("write", path, std::strerror(errno));
-  }
-  if (!status.ok()) unlink(temporary.c_str());
-  return status;
 }
 
 Status write_text(const std::string& path, std::string_view bytes) {

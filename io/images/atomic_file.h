@@ -33,6 +33,10 @@ class IgnoreFileSizeSignal {
 Status write_atomically(const std::string& path,
                         const std::function<Status(const std::string& temporary)>& write);
 
+// Removes the temporary files of writes that are under way, for a signal handler that ends the
+// process: it calls nothing but unlink.
+void remove_temporaries();
+
 // The same for bytes in memory.
 Status write_text(const std::string& path, std::string_view bytes);
 

@@ -1,5 +1,6 @@
 #include "io/report/progress_bar.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,11 +8,20 @@
 #include <cstdio>
 
 #include "fmt/format.h"
+#include "io/images/atomic_file.h"
 
 namespace obscura::tools {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
+
+// Calls only what a signal handler may.
+void end_now(int) {
+  remove_temporaries();
+  constexpr char kMessage[] = "obscura: interrupted\n";
+  if (write(STDERR_FILENO, kMessage, sizeof(kMessage) - 1) < 0) _exit(2);
+  _exit(1);
+}
 
 }  // namespace
 
@@ -52,8 +62,18 @@ bool ProgressBar::operator()(double share) {
 }
 
 void catch_interrupts() {
-  std::signal(SIGINT, [](int) { g_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+  struct sigaction action = {};
+  action.sa_handler = [](int) {
+    if (g_interrupted) end_now(0);
+    g_interrupted = 1;
+    // Whatever does not ask interrupted() is ended before a second is over.
+    const itimerval soon{{0, 0}, {0, 700000}};
+    setitimer(ITIMER_REAL, &soon, nullptr);
+  };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = end_now;
+  sigaction(SIGALRM, &action, nullptr);
 }
 
 bool interrupted() { return g_interrupted != 0; }

@@ -33,7 +33,9 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-// From here on Ctrl-C only sets a flag, so that long work can stop without leaving half a file.
+// From here on Ctrl-C and SIGTERM set a flag, so that long work can stop without leaving half a
+// file. Work that does not stop by itself is ended 0.7 s later, or by a second signal; temporary
+// files are removed.
 void catch_interrupts();
 bool interrupted();
 

@@ -10,7 +10,10 @@ namespace obscura {
 
 std::string to_string(const Range& range) {
   auto bound = [](double v) {
-    return std::isinf(v) ? std::string(v < 0 ? "-inf" : "inf") : text(v);
+    if (std::isinf(v)) return std::string(v < 0 ? "-inf" : "inf");
+    // Whole numbers to the last digit: 4294967295, not 4.29497e+09.
+    const bool whole = v == std::floor(v) && std::abs(v) < 1e15;
+    return whole ? std::to_string(static_cast<std::int64_t>(v)) : text(v);
   };
   const bool open_below = range.min_excluded || std::isinf(range.min);
   const bool open_above = range.max_excluded;

@@ -201,7 +201,7 @@ TEST(Reference, BadSettingsAreRefusedByName) {
     EXPECT_EQ(result.values[0][0], -7);
     return status.message();
   };
-  EXPECT_EQ(message([](auto& s) { s.rays = 0; }), "rays is 0; it must be in [1, 1.04858e+06]");
+  EXPECT_EQ(message([](auto& s) { s.rays = 0; }), "rays is 0; it must be in [1, 1048576]");
   EXPECT_EQ(message([](auto& s) { s.every = 0; }), "every is 0; it must be in [1, 1000]");
   EXPECT_EQ(message([](auto& s) { s.beyond_border = -1; }),
             "beyond_border is -1; it must be in [0, inf)");

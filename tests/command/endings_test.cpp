@@ -1,0 +1,113 @@
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/command/run_command.h"
+
+// However a run ends: signals, full disks, names at the limit. Nothing half-written stays.
+namespace obscura {
+namespace {
+
+class EndingsTest : public CommandTest {
+ protected:
+  // Starts the command in the folder, sends a signal after `wait`, and gives what waitpid says.
+  int killed(const std::vector<std::string>& arguments, int signal,
+             std::chrono::milliseconds wait) {
+    std::vector<std::string> words{"sh", "-c",
+                                   "cd '" + folder_ + "' && exec '" OBSCURA_COMMAND "'"};
+    for (const std::string& a : arguments) words[2] += " '" + a + "'";
+    words[2] += " >out.log 2>err.log";
+    std::vector<char*> argv;
+    for (std::string& w : words) argv.push_back(w.data());
+    argv.push_back(nullptr);
+    pid_t pid = 0;
+    EXPECT_EQ(posix_spawnp(&pid, "sh", nullptr, nullptr, argv.data(), environ), 0);
+    std::this_thread::sleep_for(wait);
+    kill(pid, signal);
+    const auto start = std::chrono::steady_clock::now();
+    int status = 0;
+    waitpid(pid, &status, 0);
+    took_ = std::chrono::steady_clock::now() - start;
+    std::filesystem::remove(path("out.log"));
+    std::filesystem::remove(path("err.log"));
+    return status;
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& f : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(f.path().filename().string());
+    }
+    return names;
+  }
+
+  std::chrono::duration<double> took_{};
+};
+
+TEST_F(EndingsTest, WhateverRunsEndsSoonAfterASignal) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"patterns", "--check", "128"},
+      {"ao", "scene:hall?size=1920x1080", "--method", "ray-traced", "--rays", "16384", "-o",
+       "a.exr"},
+      {"gbuffer", "scene:meadow?size=8000x6000", "-o", "g.exr"},
+      {"volume", "volume:gyroid?size=700", "--fields", "f.nrrd", "-o", "v.png"}};
+  for (const auto& command : commands) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      const int status = killed(command, signal, std::chrono::milliseconds(400));
+      EXPECT_TRUE(WIFEXITED(status)) << command[0];
+      EXPECT_EQ(WEXITSTATUS(status), 1) << command[0];
+      // One second on an idle machine.
+      EXPECT_LT(took_.count(), 5) << command[0];
+      EXPECT_TRUE(files().empty()) << command[0] << " left " << files()[0];
+    }
+  }
+}
+
+// A file that is being written has no name, so that even SIGKILL leaves nothing.
+TEST_F(EndingsTest, KilledWhileWritingTheOldFileStays) {
+  for (int i = 0; i < 12; ++i) {
+    write("o.exr", "the old one");
+    const int status =
+        killed({"ao", "scene:cornell?size=1200x900", "--method", "line", "-o", "o.exr", "-q"},
+               SIGKILL, std::chrono::milliseconds(60 * i));
+    const bool done = WIFEXITED(status);
+    ASSERT_EQ(files().size(), 1u) << i;
+    if (!done) {
+      const std::string content = read_file(path("o.exr"));
+      EXPECT_TRUE(content == "the old one" || content.size() > 10000) << i;
+    }
+  }
+}
+
+TEST_F(EndingsTest, StandardOutputThatCannotTakeItIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const char* arguments : {"settings", "ao scene:cornell?size=32x32 -q -o a.exr --json -"}) {
+    const std::string line = "cd '" + folder_ + "'; '" OBSCURA_COMMAND "' " +
+                             std::string(arguments) + " >/dev/full 2>err.txt";
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+    EXPECT_NE(read_file(path("err.txt")).find("No space left"), std::string::npos) << arguments;
+  }
+}
+
+TEST_F(EndingsTest, NamesMayHave255Bytes) {
+  const std::string name = std::string(251, 'n') + ".exr";
+  const CommandResult r = run("ao scene:cornell?size=16x16 -q -o " + name);
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(std::filesystem::exists(path(name)));
+}
+
+TEST_F(EndingsTest, MessagesAreShortAndPrintable) {
+  write("p.ply", "ply\nformat ascii 1.0\n\x1b[2J" + std::string(5000, 'k') + " x\nend_header\n");
+  const CommandResult r = run("ao p.ply --eye 0,0,1 --look-at 0,0,0 -o a.exr");
+  EXPECT_EQ(r.code, 3);
+  EXPECT_LE(r.err.size(), 320u);
+  EXPECT_EQ(r.err.find('\x1b'), std::string::npos);
+  expect_failure("ao scene:cornell --seed 1 --method line --samples 99 -o a.exr", 2, "[1, 32]");
+  expect_failure("ao scene:cornell --method line --seed 4294967296 -o a.exr", 2, "4294967295");
+}
+
+}  // namespace
+}  // namespace obscura

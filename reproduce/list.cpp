@@ -2,6 +2,7 @@
 #include "reproduce/far_field.h"
 #include "reproduce/reproduce.h"
 #include "reproduce/sweeps.h"
+#include "reproduce/terrain.h"
 #include "reproduce/volumetric.h"
 #ifdef OBSCURA_WITH_VULKAN
 #include "reproduce/vulkan_times.h"
@@ -45,6 +46,8 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_sweep_fig3},
       {"sweep-figures", "Fast occlusion sweeping, Figures 4 to 10 on volumes that anyone can make.",
        reproduce_sweep_figures},
+      {"terrain-pictures", "Sky views of a hillfort, a city and mountains",
+       reproduce_terrain_pictures},
 #ifdef OBSCURA_WITH_VULKAN
       {"vulkan-times", "The papers' timing tables on a Vulkan device, pass by pass",
        reproduce_vulkan_times},

@@ -9,7 +9,7 @@ namespace obscura {
 // What one thread has finished, for others that follow it closely. On a cache line of its own.
 class alignas(64) WaitCount {
  public:
-  // Makes everything written before visible to who waits for it.
+  // Makes everything written before visible to the thread that waits for it.
   void set(int finished) { finished_.store(finished, std::memory_order_release); }
   int get() const { return finished_.load(std::memory_order_acquire); }
   // Returns once `wanted` are finished. Waits a few loads long, then lets other threads run: there

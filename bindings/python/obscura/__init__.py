@@ -1,0 +1,16 @@
+"""Ambient visibility: ambient occlusion, bent normals and cones of depth images.
+
+    import obscura
+    v = obscura.visibility(depth, camera=obscura.Camera.perspective(fov_y_deg=50), radius=2)
+
+Images are float32 arrays of shape (H, W) with row 0 on top, vectors (H, W, 3) in eye space: x right,
+y up, z towards the camera. Depth is positive; +inf is background.
+"""
+from ._camera import Camera
+from ._screen import Estimator, visibility
+from ._settings import methods, settings
+
+from ._library import version as _version
+
+__version__ = _version()
+__all__ = ["Camera", "Estimator", "methods", "settings", "visibility"]

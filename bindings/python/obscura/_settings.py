@@ -1,0 +1,43 @@
+"""The methods and their settings, as the library lists them."""
+from . import _library
+
+_METHODS = _library.methods()
+
+
+def methods():
+    """The names of all methods, each with a sentence on what it is."""
+    return {name: summary for name, (summary, _, _) in _METHODS.items()}
+
+
+def settings(method):
+    """The settings of a method: name -> (what it may be, unit, default, what it means)."""
+    if method not in _METHODS:
+        raise ValueError(f"there is no method '{method}'; there are {', '.join(_METHODS)}")
+    return {name: (expected, unit, default, text)
+            for name, unit, expected, default, text in _METHODS[method][2]}
+
+
+def as_text(method, given):
+    """Settings as the library reads them: pairs of names and texts."""
+    known = settings(method)
+    pairs = []
+    for name, value in given.items():
+        if name not in known:
+            raise TypeError(f"{method} has no setting '{name}'; it has {', '.join(known)}")
+        if isinstance(value, bool):
+            text = "true" if value else "false"
+        elif isinstance(value, (str, int)):
+            text = str(value)
+        else:
+            text = repr(float(value))
+        pairs.append((name, text))
+    return pairs
+
+
+def table(method):
+    """The settings of a method as text, a line each."""
+    rows = []
+    for name, (expected, unit, default, text) in settings(method).items():
+        of = f", {unit}" if unit else ""
+        rows.append(f"    {name}: {text} [{expected}{of}; default {default}]")
+    return "\n".join(rows)

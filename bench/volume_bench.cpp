@@ -13,7 +13,7 @@
 #include "obscura/volume.h"
 #include "scene/volumes/vdb_distance.h"
 #include "tests/reference/volume_loops.h"
-#include "volume/distance_kernel.h"
+#include "volume/distance_pass.h"
 #include "volume/distance_start.h"
 #include "volume/occlusion_kernel.h"
 #include "volume/transport.h"
@@ -84,19 +84,11 @@ void report(benchmark::State& state, std::vector<Seconds> times, double voxels, 
 
 // The eight sweeps, without the start.
 void sweep_eight(Gyroid& g, DistanceStage& first, DistanceStage& second, Executor& executor) {
-  const int n = g.size[2];
-  const std::ptrdiff_t plane = std::ptrdiff_t{n} * n;
+  const std::function<bool(double)> silent;
+  Progress progress(1, silent);
   for (const bool rising : {true, false}) {
-    first.begin_pass();
-    second.begin_pass();
-    for (int k = 0; k <= n; ++k) {
-      executor.parallel_for(2, [&](int i, int) {
-        const int step = i == 0 ? k : k - 1;
-        if (step < 0 || step >= n) return;
-        const int z = rising ? step : n - 1 - step;
-        (i == 0 ? first : second).sweep(g.distance.data() + z * plane, 1, n);
-      });
-    }
+    (void)sweep_distance_pass(g.grid(), rising, first, second, executor, executor.thread_count(),
+                              progress);
   }
 }
 
@@ -141,8 +133,8 @@ void distance(benchmark::State& state) {
   Gyroid g(static_cast<int>(state.range(0)));
   auto executor = make_executor(static_cast<int>(state.range(1)));
   const float spacing[3] = {1, 1, 1};
-  DistanceStage first(g.size[0], g.size[1], spacing, false);
-  DistanceStage second(g.size[0], g.size[1], spacing, true);
+  DistanceStage first(g.size[0], g.size[1], spacing, false, executor->thread_count());
+  DistanceStage second(g.size[0], g.size[1], spacing, true, executor->thread_count());
   DistanceSettings settings;
   settings.solid = SolidSide::kBelow;
   std::vector<Seconds> times;
@@ -152,6 +144,11 @@ void distance(benchmark::State& state) {
     state.SetIterationTime(times.back().wall);
   }
   report(state, times, g.voxels(), loops);
+  // Work and the longest chain, in vectors of a strip.
+  const DistanceStage::Count count = first.count(g.size[2]);
+  state.counters["work"] = double(count.work);
+  state.counters["span"] = double(count.span);
+  state.counters["work/span"] = double(count.work) / double(count.span);
 }
 BENCHMARK(distance)
     ->Name("volume_distance")

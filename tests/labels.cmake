@@ -7,6 +7,9 @@ set_tests_properties(
   Hemisphere.BitsDoNotDependOnThreads
   Moments.ThreadsAndTargetsAgree
   Distance.BitsDoNotDependOnThreads
+  DistanceThreads.BitsDoNotDependOnThreads
+  DistanceThreads.NoWorkerWaitsForOneThatHasNotBegun
+  DistanceThreads.CancelsOnManyThreads
   VolumeRange.IsThatOfPlainLoopsForAnyThreads
   OcclusionThreads.BitsDoNotDependOnThreads
   OcclusionThreads.NoWorkerWaitsForOneThatHasNotBegun

@@ -6,7 +6,7 @@
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
-#include "volume/distance_kernel.h"
+#include "volume/distance_pass.h"
 #include "volume/distance_start.h"
 #include "volume/volume_access.h"
 
@@ -22,39 +22,13 @@ bool cuts(const DistanceSettings& settings, const VolumeRange& range) {
              : range.min <= settings.isovalue && settings.isovalue < range.max;
 }
 
-// One round of eight sweeps: along z and back. Each plane is swept in two stages of two orders
-// each. A stage needs only its own previous plane, so the second stage runs one plane behind the
-// first, on another thread.
-bool sweep_round(GridView<float> distance, DistanceStage& first, DistanceStage& second,
-                 Executor& executor, Progress& progress) {
-  const auto stride = distance.strides();
-  const int depth = distance.size[2];
-  for (const bool rising : {true, false}) {
-    first.begin_pass();
-    second.begin_pass();
-    auto sweep = [&](DistanceStage& stage, int k) {
-      if (k < 0 || k >= depth) return;
-      const int z = rising ? k : depth - 1 - k;
-      stage.sweep(distance.data + z * stride[2], stride[0], stride[1]);
-    };
-    for (int k = 0; k <= depth; ++k) {
-      if (executor.thread_count() > 1) {
-        executor.parallel_for(2,
-                              [&](int i, int) { i == 0 ? sweep(first, k) : sweep(second, k - 1); });
-      } else {
-        sweep(second, k - 1);
-        sweep(first, k);
-      }
-      if (!progress.advance()) return false;
-    }
-  }
-  return true;
-}
-
 Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridView<float> distance,
              Executor& executor, const RunOptions& run, DistanceReport* report) {
-  DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false);
-  DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true);
+  // Of both stages, each group by a thread of its own; more threads would only wait.
+  const int workers =
+      std::min(executor.thread_count(), 2 * DistanceStage::groups_of(volume.size[1]));
+  DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false, workers);
+  DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true, workers);
 
   start_distance(volume, settings, distance, executor);
   const int rounds = (settings.sweeps + 7) / 8;
@@ -62,8 +36,10 @@ Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridVie
   Progress progress(static_cast<std::int64_t>(rounds) * 2 * (volume.size[2] + 1), run.progress);
   DistanceReport done;
   for (int round = 0; round < most && !done.converged; ++round) {
-    if (!sweep_round(distance, first, second, executor, progress)) {
-      return {StatusCode::kCancelled, "the distance sweep was cancelled by the caller"};
+    for (const bool rising : {true, false}) {
+      if (!sweep_distance_pass(distance, rising, first, second, executor, workers, progress)) {
+        return {StatusCode::kCancelled, "the distance sweep was cancelled by the caller"};
+      }
     }
     done.sweeps += 8;
     const bool changed = int{first.take_changed()} + int{second.take_changed()} > 0;

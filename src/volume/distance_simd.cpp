@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -15,6 +16,11 @@
 #ifndef OBSCURA_DISTANCE_SIMD_ONCE
 #define OBSCURA_DISTANCE_SIMD_ONCE
 namespace obscura {
+// Lanes of a vector, strips swept together, steps from one to the next, steps between two looks at
+// the gate.
+struct DistanceShape {
+  int lanes, together, lag, chunk;
+};
 // What the kernel sees of a stage.
 struct DistancePlane {
   float* grid;
@@ -25,6 +31,14 @@ struct DistancePlane {
   int strips, steps;
   std::ptrdiff_t row_pitch;
   float *plane, *before, *rows;
+};
+
+// What one group of strips has swept, and what it waits for: vectors of the group before it, from
+// `begin` on.
+struct DistanceGate {
+  const WaitCount* before = nullptr;  // null: the first group
+  WaitCount* done = nullptr;
+  int begin = 0;
 };
 }  // namespace obscura
 #endif
@@ -123,9 +137,21 @@ HWY_INLINE V Neighbours(V v, V edge, M edge_lane, Indices turn) {
   return hn::TableLookupLanes(hn::IfThenElse(edge_lane, edge, v), turn);
 }
 
-// Sweeps the skewed plane in the order of rising t and rows, or of falling ones.
+constexpr int kLag = kLanes + 1;
+constexpr int kChunk = 32;  // vectors between two looks at the gate
+
+// Strips of a group, and steps until its last strip is swept.
+HWY_INLINE int StripsOf(const DistancePlane& p, int group) {
+  return std::min(kTogether, p.strips - group * kTogether);
+}
+HWY_INLINE int CountOf(const DistancePlane& p, int group) {
+  return p.steps + kLag * (StripsOf(p, group) - 1);
+}
+
+// Sweeps a group of strips of the skewed plane in the order of rising t and rows, or of falling
+// ones.
 template <bool kForward, bool kCubic>
-bool SweepPlane(const DistancePlane& p) {
+bool SweepGroup(const DistancePlane& p, int group, const DistanceGate& gate) {
   const D d;
   const hn::RebindToSigned<D> di;
   HWY_ALIGN std::int32_t turn_lanes[kLanes];
@@ -140,18 +166,22 @@ bool SweepPlane(const DistancePlane& p) {
   const V least_step = hn::Set(d, 0.999f / std::sqrt(inverse));
   const V outside = hn::Set(d, kOutsideDistance);
   const std::ptrdiff_t strip_size = static_cast<std::ptrdiff_t>(p.steps) * kLanes;
-  constexpr int kLag = kLanes + 1;
   M changed = hn::MaskFromVec(hn::Zero(d));
-
-  for (int first = 0; first < p.strips; first += kTogether) {
-    const int together = std::min(kTogether, p.strips - first);
-    V previous[kTogether] = {outside, outside, outside, outside};
-    const int count = p.steps + kLag * (together - 1);
-    for (int i = 0; i < count; ++i) {
+  const int first = group * kTogether, together = StripsOf(p, group);
+  V previous[kTogether] = {outside, outside, outside, outside};
+  const int count = CountOf(p, group);
+  // The row beside the group's first strip belongs to the last strip of the group before it.
+  const int neighbour = kForward ? group - 1 : group + 1;
+  const int all = gate.before ? CountOf(p, neighbour) : 0;
+  const int ahead = gate.before ? kLanes - 1 + kLag * (StripsOf(p, neighbour) - 1) : 0;
+  for (int chunk = 0; chunk < count; chunk += kChunk) {
+    const int end = std::min(chunk + kChunk, count);
+    if (gate.before) gate.before->wait_for(gate.begin + std::min(end + ahead, all));
+    for (int i = chunk; i < end; ++i) {
       for (int q = 0; q < kTogether; ++q) {
         const int step = i - kLag * q;
         if (q >= together || step < 0 || step >= p.steps) continue;
-        const int strip = kForward ? first + q : p.strips - 1 - first - q;
+        const int strip = kForward ? first + q : first + together - 1 - q;
         const int t = kForward ? step : p.steps - 1 - step;
         const std::ptrdiff_t at = strip * strip_size + t * static_cast<std::ptrdiff_t>(kLanes);
         // The row beside this strip, at the same x, belongs to the strip swept before.
@@ -179,6 +209,7 @@ bool SweepPlane(const DistancePlane& p) {
         previous[q] = value;
       }
     }
+    gate.done->set(gate.begin + end);
   }
   return !hn::AllFalse(d, changed);
 }
@@ -210,9 +241,10 @@ void WriteRow(const DistancePlane& p, int y, const float* HWY_RESTRICT row) {
   }
 }
 
-bool SweepDistance(DistancePlane& p) {
+void ReadGroup(const DistancePlane& p, int group) {
   const std::ptrdiff_t strip_size = static_cast<std::ptrdiff_t>(p.steps) * kLanes;
-  for (int strip = 0; strip < p.strips; ++strip) {
+  const int first = group * kTogether, end = first + StripsOf(p, group);
+  for (int strip = first; strip < end; ++strip) {
     for (int j = 0; j < kLanes; ++j) {
       float* row = p.rows + j * p.row_pitch + kLanes;
       const int y = strip * kLanes + j;
@@ -227,16 +259,12 @@ bool SweepDistance(DistancePlane& p) {
       SkewFloats<kLanes>(from + t, p.row_pitch - 1, p.plane + strip * strip_size + t * kLanes);
     }
   }
-  bool changed;
-  const bool cubic = p.spacing[0] == p.spacing[1] && p.spacing[1] == p.spacing[2];
-  if (cubic) {
-    changed = SweepPlane<true, true>(p);
-    changed |= SweepPlane<false, true>(p);
-  } else {
-    changed = SweepPlane<true, false>(p);
-    changed |= SweepPlane<false, false>(p);
-  }
-  for (int strip = 0; strip < p.strips; ++strip) {
+}
+
+void WriteGroup(const DistancePlane& p, int group) {
+  const std::ptrdiff_t strip_size = static_cast<std::ptrdiff_t>(p.steps) * kLanes;
+  const int first = group * kTogether, end = first + StripsOf(p, group);
+  for (int strip = first; strip < end; ++strip) {
     float* to = p.rows + kLanes;
     for (int t = 0; t < p.steps; t += 4) {
       UnskewFloats<kLanes>(p.plane + strip * strip_size + t * kLanes, to + t, p.row_pitch - 1);
@@ -245,10 +273,21 @@ bool SweepDistance(DistancePlane& p) {
       WriteRow(p, strip * kLanes + j, p.rows + j * p.row_pitch + kLanes);
     }
   }
+}
+
+bool SweepDistance(const DistancePlane& p, bool forward, int group, const DistanceGate& gate) {
+  const bool cubic = p.spacing[0] == p.spacing[1] && p.spacing[1] == p.spacing[2];
+  if (forward) {
+    ReadGroup(p, group);
+    return cubic ? SweepGroup<true, true>(p, group, gate) : SweepGroup<true, false>(p, group, gate);
+  }
+  const bool changed =
+      cubic ? SweepGroup<false, true>(p, group, gate) : SweepGroup<false, false>(p, group, gate);
+  WriteGroup(p, group);
   return changed;
 }
 
-int DistanceLanes() { return kLanes; }
+DistanceShape ShapeOf() { return {kLanes, kTogether, kLag, kChunk}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
@@ -257,42 +296,95 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace obscura {
 HWY_EXPORT(SweepDistance);
-HWY_EXPORT(DistanceLanes);
+HWY_EXPORT(ShapeOf);
 
 namespace {
 constexpr std::ptrdiff_t kAlign = 16;  // floats
 }
 
-DistanceStage::DistanceStage(int width, int height, const float spacing[3], bool mirrored)
+DistanceStage::DistanceStage(int width, int height, const float spacing[3], bool mirrored,
+                             int workers)
     : width_(width), height_(height), mirrored_(mirrored) {
   std::copy_n(spacing, 3, spacing_);
-  lanes_ = HWY_DYNAMIC_DISPATCH(DistanceLanes)();
+  const DistanceShape shape = HWY_DYNAMIC_DISPATCH(ShapeOf)();
+  lanes_ = shape.lanes;
   strips_ = (height + lanes_ - 1) / lanes_;
   steps_ = (width + lanes_ - 1 + 3) / 4 * 4;
+  groups_ = groups_of(height);
+  // One plane's count of steps ends before the next plane's begins.
+  span_ = steps_ + shape.lag * shape.together;
+  forward_ = std::vector<WaitCount>(static_cast<std::size_t>(groups_));
+  backward_ = std::vector<WaitCount>(static_cast<std::size_t>(groups_));
   const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(strips_) * steps_ * lanes_;
   row_pitch_ = steps_ + 2 * lanes_;
-  storage_.assign(static_cast<std::size_t>(2 * plane + lanes_ * row_pitch_ + 3 * kAlign),
+  rows_size_ = (lanes_ * row_pitch_ + kAlign - 1) / kAlign * kAlign;
+  storage_.assign(static_cast<std::size_t>(2 * plane + workers * rows_size_ + 3 * kAlign),
                   kOutsideDistance);
   const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
   const auto lead = (kAlign - address / sizeof(float) % kAlign) % kAlign;
-  plane_ = storage_.data() + lead;
-  before_ = plane_ + plane;
-  rows_ = before_ + plane;
+  planes_[0] = storage_.data() + lead;
+  planes_[1] = planes_[0] + plane;
+  rows_ = planes_[1] + plane;
+}
+
+int DistanceStage::groups_of(int height) {
+  const DistanceShape shape = HWY_DYNAMIC_DISPATCH(ShapeOf)();
+  const int rows = shape.lanes * shape.together;
+  return (height + rows - 1) / rows;
+}
+
+void DistanceStage::begin_pass() {
+  next_ = 0;
+  std::fill_n(planes_[1], static_cast<std::size_t>(strips_) * steps_ * lanes_, kOutsideDistance);
+  for (int g = 0; g < groups_; ++g) {
+    forward_[static_cast<std::size_t>(g)].set(0);
+    backward_[static_cast<std::size_t>(g)].set(0);
+  }
+}
+
+void DistanceStage::sweep_group(const Plane& plane, int k, bool forward, int group, int worker) {
+  const auto g = static_cast<std::size_t>(group);
+  std::vector<WaitCount>& counts = forward ? forward_ : backward_;
+  DistanceGate gate{nullptr, &counts[g], k * span_};
+  if (forward) {
+    if (group > 0) gate.before = &counts[g - 1];
+    backward_[g].wait_for(k * span_);  // the plane before
+  } else {
+    if (group + 1 < groups_) gate.before = &counts[g + 1];
+    forward_[g].wait_for((k + 1) * span_);
+  }
+  DistancePlane p{plane.data, plane.stride_x, plane.stride_y, width_,  height_, {},     mirrored_,
+                  strips_,    steps_,         row_pitch_,     nullptr, nullptr, nullptr};
+  p.plane = planes_[k % 2];
+  p.before = planes_[(k + 1) % 2];
+  p.rows = rows_ + worker * rows_size_;
+  std::copy_n(spacing_, 3, p.spacing);
+  if (HWY_DYNAMIC_DISPATCH(SweepDistance)(p, forward, group, gate)) {
+    changed_.store(true, std::memory_order_relaxed);
+  }
+  counts[g].set((k + 1) * span_);
 }
 
 void DistanceStage::sweep(float* plane, std::ptrdiff_t stride_x, std::ptrdiff_t stride_y) {
-  std::swap(plane_, before_);
-  if (first_) {
-    std::fill_n(before_, static_cast<std::size_t>(strips_) * steps_ * lanes_, kOutsideDistance);
-    first_ = false;
-  }
-  DistancePlane p{plane,   stride_x, stride_y,   width_, height_, {},   mirrored_,
-                  strips_, steps_,   row_pitch_, plane_, before_, rows_};
-  std::copy_n(spacing_, 3, p.spacing);
-  changed_ |= HWY_DYNAMIC_DISPATCH(SweepDistance)(p);
+  const Plane p{plane, stride_x, stride_y};
+  for (int g = 0; g < groups_; ++g) sweep_group(p, next_, true, g, 0);
+  for (int g = groups_; g-- > 0;) sweep_group(p, next_, false, g, 0);
+  ++next_;
 }
 
-bool DistanceStage::take_changed() { return std::exchange(changed_, false); }
+void DistanceStage::follow(const DistanceStage& ahead, int k, int group) const {
+  ahead.backward_[static_cast<std::size_t>(group)].wait_for((k + 1) * ahead.span_);
+}
+
+DistanceStage::Count DistanceStage::count(int depth) const {
+  const DistanceShape shape = HWY_DYNAMIC_DISPATCH(ShapeOf)();
+  const std::int64_t group = steps_ + std::int64_t{shape.lag} * (shape.together - 1);
+  const std::int64_t behind = shape.chunk + shape.lanes - 1 + shape.lag * (shape.together - 1);
+  // Two stages, forward and backward through every group; the second stage runs a plane behind.
+  return {4 * group * groups_ * depth, 2 * (group + behind * (groups_ - 1)) * (depth + 1)};
+}
+
+bool DistanceStage::take_changed() { return changed_.exchange(false, std::memory_order_relaxed); }
 
 }  // namespace obscura
 #endif  // HWY_ONCE

@@ -40,9 +40,15 @@ void VolumeInputOptions::add_to(CLI::App* command) {
   command->add_flag("--raw-big-endian", big_endian_, "Its samples have their high byte first")
       ->group(group);
   command
-      ->add_option("--grid", grid_,
+      ->add_option("--grid", choice_.grid,
                    "Grid of an OpenVDB file [density, else the first with two values]")
       ->type_name("NAME")
+      ->group(group);
+  command
+      ->add_option("--volume-index", choice_.index,
+                   "Volume of a NIfTI file with several, counted from 0 [default 0]")
+      ->check(CLI::Range(0, 1000000000))
+      ->type_name("N")
       ->group(group);
   command
       ->add_option("--clip", clip_,
@@ -78,7 +84,7 @@ Status VolumeInputOptions::load(const std::string& path, int threads,
   if (!clip_.empty()) {
     if (Status s = tools::parse_clip(clip_, &box); !s.ok()) return s;
   }
-  if (Status s = tools::load_volume(path, raw, image, threads, grid_); !s.ok()) return s;
+  if (Status s = tools::load_volume(path, raw, image, threads, choice_); !s.ok()) return s;
   for (const std::string& note : image->notes) fmt::print(stderr, "obscura: note: {}\n", note);
   return clip_.empty() ? Status() : tools::clip(box, image);
 }

@@ -16,7 +16,8 @@ class VolumeInputOptions {
   Status load(const std::string& path, int threads, tools::VolumeImage* image) const;
 
  private:
-  std::string size_, type_, spacing_, clip_, grid_;
+  std::string size_, type_, spacing_, clip_;
+  tools::VolumeChoice choice_;
   bool big_endian_ = false;
 };
 

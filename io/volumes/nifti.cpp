@@ -193,7 +193,7 @@ Status read_header(ByteSource& source, const std::string& path, Header* header, 
 
 }  // namespace
 
-Status read_nifti(const std::string& path, VolumeImage* image) {
+Status read_nifti(const std::string& path, int index, VolumeImage* image) {
   ByteSource source;
   if (Status s = source.open(path, ByteSource::kGunzip); !s.ok()) return s;
   Header h;
@@ -207,14 +207,27 @@ Status read_nifti(const std::string& path, VolumeImage* image) {
   VolumeImage result;
   result.name = path;
   result.format = header_bytes == kSize1 ? "NIfTI-1" : "NIfTI-2";
+  double volumes = 1;
   for (int i = 1; i <= 7; ++i) {
     const std::int64_t n = i <= h.dim[0] ? h.dim[i] : 1;
     if (i <= 3) {
       result.size[i - 1] = int(std::clamp<std::int64_t>(n, -1, 1 << 30));
-    } else if (n > 1) {
-      return invalid_input(fmt::format(
-          "{}: its dim[{}] is {}; a single volume is needed, so extract one", path, i, n));
+    } else if (n < 1 || n > 32767 || volumes > 1e9 / static_cast<double>(n)) {
+      return invalid_input(
+          fmt::format("{}: its dim[{}] is {}; it must be at least 1, and no more "
+                      "than a billion volumes be in all",
+                      path, i, n));
+    } else {
+      volumes *= static_cast<double>(n);
     }
+  }
+  if (index < 0 || index >= volumes) {
+    return invalid_argument(
+        fmt::format("--volume-index is {}; {} has {} volumes, from 0 on", index, path, volumes));
+  }
+  if (volumes > 1) {
+    result.notes.push_back(fmt::format("{}: of its {} volumes, number {} is read (--volume-index)",
+                                       path, volumes, index));
   }
   StoredType stored;
   if (!stored_type(h.datatype, &stored)) {
@@ -235,12 +248,14 @@ Status read_nifti(const std::string& path, VolumeImage* image) {
   }
   if (Status s = place(h, &result); !s.ok()) return s;
   if (Status s = check_geometry(result); !s.ok()) return s;
-  const auto skipped = static_cast<std::int64_t>(h.vox_offset) - header_bytes;
-  if (skipped > source.most_bytes()) {
-    return invalid_input(
-        fmt::format("{}: its vox_offset is {}, beyond its end", path, h.vox_offset));
+  const double before = static_cast<double>(index) * static_cast<double>(result.voxels()) *
+                        static_cast<double>(bytes_of(stored));
+  const double skipped = h.vox_offset - header_bytes + before;
+  if (skipped > static_cast<double>(source.most_bytes())) {
+    return invalid_input(fmt::format("{}: its volume {} begins at byte {:.0f}, beyond its end",
+                                     path, index, h.vox_offset + before));
   }
-  if (Status s = source.skip(skipped); !s.ok()) return s;
+  if (Status s = source.skip(static_cast<std::int64_t>(skipped)); !s.ok()) return s;
   if (Status s = read_samples(source, stored, swap, &result); !s.ok()) return s;
   *image = std::move(result);
   return {};

@@ -9,7 +9,9 @@ namespace obscura::tools {
 // sform's where it has right angles, else the qform's, else the bare spacing.
 //
 // Read here and not by a library: the common one prints to stderr and trusts the header's sizes.
-Status read_nifti(const std::string& path, VolumeImage* image);
+//
+// Of several volumes (dim[4] and beyond) the one that `index` counts from 0 is read.
+Status read_nifti(const std::string& path, int index, VolumeImage* image);
 
 }  // namespace obscura::tools
 

@@ -73,16 +73,16 @@ Status read_raw(const std::string& path, const RawLayout& layout, VolumeImage* i
 }
 
 Status load(Format format, const std::string& spec, const std::optional<RawLayout>& raw,
-            VolumeImage* image, int threads, const std::string& grid) {
+            VolumeImage* image, int threads, const VolumeChoice& choice) {
   switch (format) {
     case Format::kProcedural:
       return make_procedural_volume(spec, image, threads);
     case Format::kNifti:
-      return read_nifti(spec, image);
+      return read_nifti(spec, choice.index.value_or(0), image);
     case Format::kNrrd:
       return read_nrrd(spec, image);
     case Format::kVdb:
-      return read_vdb(spec, grid, image);
+      return read_vdb(spec, choice.grid, image);
     case Format::kRaw:
       if (raw) return read_raw(spec, *raw, image);
       return invalid_argument(
@@ -101,17 +101,21 @@ Status load(Format format, const std::string& spec, const std::optional<RawLayou
 bool is_volume(const std::string& spec) { return format_of(spec) != Format::kNone; }
 
 Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw, VolumeImage* image,
-                   int threads, const std::string& grid) {
+                   int threads, const VolumeChoice& choice) {
   const Format format = format_of(spec);
   if (raw && format != Format::kRaw) {
     return invalid_argument(
         fmt::format("{}: says its own layout; size and type are for .raw files", spec));
   }
-  if (!grid.empty() && format != Format::kVdb) {
+  if (!choice.grid.empty() && format != Format::kVdb) {
     return invalid_argument(fmt::format("{}: has one grid; --grid is for .vdb files", spec));
   }
+  if (choice.index && format != Format::kNifti) {
+    return invalid_argument(
+        fmt::format("{}: has one volume; --volume-index is for NIfTI files", spec));
+  }
   try {
-    return load(format, spec, raw, image, threads, grid);
+    return load(format, spec, raw, image, threads, choice);
   } catch (const std::bad_alloc&) {
     return {StatusCode::kOutOfMemory, fmt::format("{}: does not fit in memory", spec)};
   }

@@ -17,14 +17,20 @@ struct RawLayout {
   bool big_endian = false;
 };
 
+// Which of several volumes in a file.
+struct VolumeChoice {
+  std::string grid{};          // of a .vdb file
+  std::optional<int> index{};  // of a NIfTI file, from 0
+};
+
 // Whether load_volume would take the name: a procedural volume's, or an ending of a volume file.
 bool is_volume(const std::string& spec);
 
 // Loads volume:NAME?key=value&..., .nii, .nii.gz, .nrrd, .nhdr, .vdb or .raw; `threads` as for
 // make_executor.
-// `grid` names one of several in a .vdb file. What was chosen stands in image->notes.
+// What was chosen stands in image->notes.
 Status load_volume(const std::string& spec, const std::optional<RawLayout>& raw, VolumeImage* image,
-                   int threads = 0, const std::string& grid = {});
+                   int threads = 0, const VolumeChoice& choice = {});
 
 // What the volume holds: format, size, type, spacing, place in the world, range, counts of values
 // that are not finite, histogram and Otsu's threshold.

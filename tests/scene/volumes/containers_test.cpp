@@ -108,13 +108,13 @@ TEST_F(VdbTest, TheGridThatFitsIsReadAndNamed) {
   for (const char* name : {"flat", "heat", "density is read"}) {
     EXPECT_NE(image.notes[0].find(name), std::string::npos) << image.notes[0];
   }
-  ASSERT_TRUE(load_volume(path("g.vdb"), {}, &image, 0, "flat").ok());
+  ASSERT_TRUE(load_volume(path("g.vdb"), {}, &image, 0, {"flat", {}}).ok());
   EXPECT_EQ(value_at(image, 0, 0, 0), 1);
-  EXPECT_EQ(load_volume(path("g.vdb"), {}, &image, 0, "x").code(), StatusCode::kInvalidInput);
+  EXPECT_EQ(load_volume(path("g.vdb"), {}, &image, 0, {"x", {}}).code(), StatusCode::kInvalidInput);
   ASSERT_TRUE(write_vdb(path("h.vdb"), grid(), std::span(fields).first(2)).ok());
   ASSERT_TRUE(load_volume(path("h.vdb"), {}, &image).ok());
   EXPECT_EQ(value_at(image, 0, 0, 0), 2);
-  EXPECT_FALSE(load_volume("volume:gyroid", {}, &image, 0, "x").ok());
+  EXPECT_FALSE(load_volume("volume:gyroid", {}, &image, 0, {"x", {}}).ok());
 }
 
 // Cut and changed anywhere, a file is refused in a line, or read, within seconds.

@@ -25,6 +25,7 @@ void register_drivers() {
     if (std::ranges::find(kLocalDrivers, std::string_view(GDALGetDriverShortName(driver))) ==
         std::end(kLocalDrivers)) {
       GDALDeregisterDriver(driver);
+      GDALDestroyDriver(driver);
     }
   }
   // A VRT may hold a program.

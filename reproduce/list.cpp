@@ -2,6 +2,7 @@
 #include "reproduce/far_field.h"
 #include "reproduce/reproduce.h"
 #include "reproduce/sweeps.h"
+#include "reproduce/temporal.h"
 #include "reproduce/terrain.h"
 #include "reproduce/volumetric.h"
 #ifdef OBSCURA_WITH_VULKAN
@@ -28,6 +29,8 @@ const std::vector<Reproduction>& reproductions() {
        reproduce_ffao_bars},
       {"error-vs-time", "Error against time, for the depth image and for the real geometry",
        reproduce_error_vs_time},
+      {"temporal", "How much each method changes from frame to frame while the camera moves",
+       reproduce_temporal},
       {"bent-overhead",
        "What bent normals and cones cost beside visibility (Klehm et al. 2011, section 5)",
        reproduce_bent_overhead},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -144,7 +145,7 @@ MethodSettings of_frame(const Candidate& c, int frame) {
 Status reproduce_temporal(const ReproduceContext& context, Report* report, std::string* text) {
   const std::unique_ptr<Executor> executor = make_executor(context.threads);
   const std::vector<std::string> scenes = {"hall", "meadow", "tower"};
-  Plot plot;
+  Plot plot;  // of the fixed patterns
   plot.title = "Change along the surface, a point per scene";
   plot.x_label = "change from frame to frame, %";
   plot.y_label = "change of the mean, %";
@@ -189,8 +190,11 @@ Status reproduce_temporal(const ReproduceContext& context, Report* report, std::
       const double of_mean = 100 * tracks[i].change_of_mean / (kFrames - 1);
       report->add(row, "change", change, "%");
       report->add(row, "change of the mean", of_mean, "%");
+      if (all[i].new_seed) continue;
       if (k == 0) plot.series.push_back({all[i].name, {}, false});
-      plot.series[i].points.emplace_back(change, of_mean);
+      const auto series = std::find_if(plot.series.begin(), plot.series.end(),
+                                       [&](const auto& one) { return one.name == all[i].name; });
+      series->points.emplace_back(change, of_mean);
     }
   }
   if (Status s = context.plot("methods", plot.to_svg()); !s.ok()) return s;

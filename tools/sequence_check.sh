@@ -23,7 +23,7 @@ sums() { (cd "$1" && sha256sum ao.*.exr); }
 "$obscura" gbuffer 'scene:hall?size=1920x1080&fov-y=##' --frames "30-$last" -o shot.####.exr -q
 mkdir whole killed small
 
-# Time: against the processor time of frames alone on one thread, start of the program included.
+# Time: against the CPU time of frames alone on one thread, start of the program included.
 ao -o whole/ao.####.exr --json report.json
 value() { awk -v metric="\"$1\"," '$2 == metric { getline; sub(",", "", $2); print $2 }' report.json; }
 TIMEFORMAT='%U %S'

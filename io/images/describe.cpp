@@ -76,6 +76,44 @@ void describe_exr(const std::string& path, const ExrHeader& header, Json* json) 
   (*json)["camera"] = describe_camera(path, header);
 }
 
+// What reading it as a depth image would say and decide, and a command that takes it.
+void describe_reading(const std::string& path, bool has_camera, Json* json) {
+  DepthFileOptions o;
+  std::string options;
+  if (!has_camera) {
+    o.fov_y = 45;
+    options += " --fov-y DEGREES";
+  }
+  if (file_ending(path) == ".png") {
+    o.depth_scale = 1;
+    options += " --depth-scale UNIT";
+  }
+  DepthInput input;
+  if (Status s = load_depth_input(path, o, &input); !s.ok()) {
+    (*json)["problem"] = s.message();
+    return;
+  }
+  (*json)["notes"] = input.notes;
+  (*json)["command"] = fmt::format("obscura ao {}{} -o ao.png", path, options);
+}
+
+Status describe_parts(const std::string& path, int* part, Json* json) {
+  std::vector<ExrHeader> parts;
+  if (Status s = read_exr_headers(path, &parts); !s.ok()) return s;
+  *part = 0;
+  if (parts.size() < 2) return {};
+  Json list = Json::array();
+  for (const ExrHeader& p : parts) {
+    std::string channels;
+    for (const auto& c : p.channels) channels += (channels.empty() ? "" : ", ") + c.name;
+    list.push_back(fmt::format("{} {}: {}", p.part, p.part_name, channels));
+  }
+  (*json)["parts"] = std::move(list);
+  if (Status s = choose_exr_part(path, parts, {}, part); !s.ok()) *part = 0;
+  (*json)["part"] = *part;
+  return {};
+}
+
 // A value for people. Names in a file may hold any bytes; none shall steer a terminal.
 std::string as_text(const Json& value) {
   std::string text = value.is_string() ? value.text() : value.dump();
@@ -92,7 +130,11 @@ Status describe_image(const std::string& path, Json* description) {
   Image image;
   ExrHeader header;
   const bool exr = file_ending(path) == ".exr";
-  Status s = exr ? read_exr(path, {}, &header, &image) : read_image(path, &image);
+  int part = 0;
+  if (exr) {
+    if (Status s = describe_parts(path, &part, &json); !s.ok()) return s;
+  }
+  Status s = exr ? read_exr(path, {}, &header, &image, part) : read_image(path, &image);
   if (!s.ok()) return s;
   json["kind"] = file_ending(path).substr(1);
   json["width"] = image.width;
@@ -107,6 +149,10 @@ Status describe_image(const std::string& path, Json* description) {
     if (c.subsampled) channels.push_back({{"name", c.name}, {"type", c.type + ", subsampled"}});
   }
   json["channels"] = std::move(channels);
+  const bool depth =
+      exr ? !json.contains("depth") || json["depth"].text().find(' ') == std::string::npos
+          : image.channels.size() == 1 && file_ending(path) != ".hdr";
+  if (depth) describe_reading(path, header.world_to_camera && header.world_to_ndc, &json);
   *description = std::move(json);
   return {};
 }

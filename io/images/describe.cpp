@@ -61,7 +61,8 @@ std::string describe_camera(const std::string& path, const ExrHeader& header) {
                      (above + below) * 180 / std::numbers::pi);
 }
 
-void describe_exr(const std::string& path, const ExrHeader& header, Json* json) {
+// Whether depth is found.
+bool describe_exr(const std::string& path, const ExrHeader& header, Json* json) {
   (*json)["display_window"] = describe_window(header.display_window);
   (*json)["data_window"] = describe_window(header.data_window);
   (*json)["attributes"] = header.attributes;
@@ -74,6 +75,7 @@ void describe_exr(const std::string& path, const ExrHeader& header, Json* json) 
           ? std::string("none; reconstructed from depth")
           : fmt::format("{} {} {}", choice.normals[0], choice.normals[1], choice.normals[2]);
   (*json)["camera"] = describe_camera(path, header);
+  return s.ok();
 }
 
 // What reading it as a depth image would say and decide, and a command that takes it.
@@ -139,7 +141,8 @@ Status describe_image(const std::string& path, Json* description) {
   json["kind"] = file_ending(path).substr(1);
   json["width"] = image.width;
   json["height"] = image.height;
-  if (exr) describe_exr(path, header, &json);
+  const bool depth = exr ? describe_exr(path, header, &json)
+                         : image.channels.size() == 1 && file_ending(path) != ".hdr";
   for (const Image::Channel& c : image.channels) {
     const auto* native = exr ? header.find(c.name) : nullptr;
     const char* type = file_ending(path) == ".png" ? "8 or 16 bits, as [0, 1]" : "float";
@@ -149,9 +152,6 @@ Status describe_image(const std::string& path, Json* description) {
     if (c.subsampled) channels.push_back({{"name", c.name}, {"type", c.type + ", subsampled"}});
   }
   json["channels"] = std::move(channels);
-  const bool depth =
-      exr ? !json.contains("depth") || json["depth"].text().find(' ') == std::string::npos
-          : image.channels.size() == 1 && file_ending(path) != ".hdr";
   if (depth) describe_reading(path, header.world_to_camera && header.world_to_ndc, &json);
   *description = std::move(json);
   return {};

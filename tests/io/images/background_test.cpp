@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/images/depth_file.h"
+#include "io/images/describe.h"
 #include "io/images/files.h"
 #include "io/images/png.h"
 #include "obscura/estimator.h"
@@ -152,6 +153,21 @@ TEST_F(Background, AnImageOfNothingIsRefused) {
   const Loaded l = load(image);
   EXPECT_EQ(l.status.code(), StatusCode::kInvalidInput);
   EXPECT_NE(l.status.message().find("--background"), std::string::npos);
+}
+
+TEST_F(Background, InfoSaysWhatWouldBeRead) {
+  ASSERT_TRUE(write_image(path("d.exr"), scene(1e10f)).ok());
+  Json description;
+  ASSERT_TRUE(describe_image(path("d.exr"), &description).ok());
+  const std::string text = description_text(description);
+  EXPECT_NE(text.find("are background"), std::string::npos) << text;
+  EXPECT_NE(text.find("command: obscura ao " + path("d.exr") + " --fov-y"), std::string::npos)
+      << text;
+  Image image = scene(kInf);
+  for (float& v : image.channels[0].values) v = 0;
+  ASSERT_TRUE(write_image(path("d.exr"), image).ok());
+  ASSERT_TRUE(describe_image(path("d.exr"), &description).ok());
+  EXPECT_NE(description_text(description).find("problem: "), std::string::npos);
 }
 
 TEST_F(Background, MillimetresInAPng) {

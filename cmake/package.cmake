@@ -73,6 +73,6 @@ set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 if(OBSCURA_BUILD_PYTHON)
   obscura_package(python python3-obscura python
     "This is the Python module obscura."
-    "libobscura${version} (= ${PROJECT_VERSION})" python3 python3-numpy)
+    "libobscura${version} (= ${PROJECT_VERSION})" "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)
 endif()
 include(CPack)

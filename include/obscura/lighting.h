@@ -71,8 +71,8 @@ struct EnumNames<LightingTechnique> {
 
 enum class ConeNormalisation {
   kConstant,  // t = 1/sin^2(a): constant light stays constant
-  kPaper,  // t = 1/(1 - cos a), Klehm et al. 2011, section 3.3: constant light
-           // becomes 1 + cos a
+  kPaper,     // t = 1/(1 - cos a), Klehm et al. 2011, section 3.3: constant light
+              // becomes 1 + cos a
 };
 template <>
 struct EnumNames<ConeNormalisation> {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "library/arrays.h"
+#include "library/module.h"
 #include "library/run.h"
 #include "obscura/obscura.h"
 
@@ -170,6 +171,7 @@ PYBIND11_MODULE(_library, m) {
   py::class_<Frames>(m, "Frames")
       .def(py::init<const std::string&, const Settings&, int, int>())
       .def("run", &Frames::run_one);
+  add_terrain(m);
 }
 
 }  // namespace obscura::python

@@ -9,8 +9,9 @@ y up, z towards the camera. Depth is positive; +inf is background.
 from ._camera import Camera
 from ._screen import Estimator, visibility
 from ._settings import methods, settings
+from ._terrain import terrain
 
 from ._library import version as _version
 
 __version__ = _version()
-__all__ = ["Camera", "Estimator", "methods", "settings", "visibility"]
+__all__ = ["Camera", "Estimator", "methods", "settings", "terrain", "visibility"]

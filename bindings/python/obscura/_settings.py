@@ -24,14 +24,17 @@ def as_text(method, given):
     for name, value in given.items():
         if name not in known:
             raise TypeError(f"{method} has no setting '{name}'; it has {', '.join(known)}")
-        if isinstance(value, bool):
-            text = "true" if value else "false"
-        elif isinstance(value, (str, int)):
-            text = str(value)
-        else:
-            text = repr(float(value))
-        pairs.append((name, text))
+        pairs.append((name, text_of(value)))
     return pairs
+
+
+def text_of(value):
+    """A value as the library reads it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (str, int)):
+        return str(value)
+    return repr(float(value))
 
 
 def table(method):

@@ -55,9 +55,10 @@ TEST_F(EndingsTest, WhateverRunsEndsSoonAfterASignal) {
       {"volume", "volume:gyroid?size=700", "--fields", "f.nrrd", "-o", "v.png"}};
   for (const auto& command : commands) {
     for (const int signal : {SIGINT, SIGTERM}) {
-      const int status = killed(command, signal, std::chrono::milliseconds(400));
-      EXPECT_TRUE(WIFEXITED(status)) << command[0];
-      EXPECT_EQ(WEXITSTATUS(status), 1) << command[0];
+      const int status = killed(command, signal, std::chrono::milliseconds(700));
+      // A signal that comes before the command has begun ends it by itself.
+      const bool early = WIFSIGNALED(status) && WTERMSIG(status) == signal;
+      EXPECT_TRUE(early || (WIFEXITED(status) && WEXITSTATUS(status) == 1)) << command[0];
       // One second on an idle machine.
       EXPECT_LT(took_.count(), 5) << command[0];
       EXPECT_TRUE(files().empty()) << command[0] << " left " << files()[0];

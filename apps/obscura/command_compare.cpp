@@ -93,10 +93,13 @@ Status run_compare(const CompareCommand& c) {
                "reference's {}\n",
                a.occluder, b.occluder);
   }
+  std::string nan;
   for (const auto& [i, j] : pairs) {
     tools::Comparison r;
-    if (Status s = tools::compare(a.view(i), b.view(j), mask, &r); !s.ok()) return s;
     const std::string& name = a.channels[i].name;
+    if (Status s = tools::compare(a.view(i), b.view(j), mask, &r); !s.ok()) {
+      return invalid_input(fmt::format("{}: {}", name, s.message()));
+    }
     report.add(name, "e_A", r.e_a, "%");
     report.add(name, "e_<5%", r.within_5, "%");
     report.add(name, "bias", r.bias, "%");
@@ -105,6 +108,12 @@ Status run_compare(const CompareCommand& c) {
     report.add(name, "correlation", r.correlation);
     report.add(name, "pixels", static_cast<double>(r.pixels));
     report.add(name, "infinite in one only", static_cast<double>(r.infinite));
+    report.add(name, "NaN", static_cast<double>(r.nan));
+    if (r.nan > 0) {
+      nan += fmt::format("{}{}: {} of {} pixels are NaN (in the first image {}, in the second {})",
+                         nan.empty() ? "" : "; ", name, r.nan, r.nan + r.infinite + r.pixels,
+                         r.nan_image, r.nan_reference);
+    }
     if (r.infinite > 0) {
       fmt::print(stderr, "obscura: note: {}: {} pixels are infinite in one image only, left out\n",
                  name, r.infinite);
@@ -121,7 +130,8 @@ Status run_compare(const CompareCommand& c) {
         tools::error_picture(a.view(pairs[0].first), b.view(pairs[0].second), mask);
     if (Status s = tools::write_image(c.error_image, picture); !s.ok()) return s;
   }
-  return write_json(report, c.json);
+  if (Status s = write_json(report, c.json); !s.ok() || nan.empty()) return s;
+  return invalid_input(nan + "; the figures are of the others; --mask DEPTH leaves pixels out");
 }
 
 }  // namespace
@@ -131,8 +141,8 @@ void add_compare(App& app) {
   CLI::App* command = app.add_command(
       "compare",
       "How image A differs from reference B. Where B is N times smaller, A is read at every N-th "
-      "pixel from floor(N/2). NaN pixels are left out; equal infinities are equal, one-sided ones "
-      "are counted.",
+      "pixel from floor(N/2). Equal infinities are equal, one-sided ones are counted. NaN is "
+      "counted and never taken for equal: the exit code is then not 0.",
       [c, &app] {
         c->quiet = app.quiet;
         return run_compare(*c);

@@ -31,7 +31,13 @@ Status compare(const ImageView<const float>& image, const ImageView<const float>
     for (int x = 0; x < reference.width; ++x) {
       const int u = x * n + n / 2, v = y * n + n / 2;
       const double a = image(u, v), b = reference(x, y);
-      if (std::isnan(a) || std::isnan(b) || (!mask.empty() && !std::isfinite(mask(u, v)))) continue;
+      if (!mask.empty() && !std::isfinite(mask(u, v))) continue;
+      if (std::isnan(a) || std::isnan(b)) {
+        ++c.nan;
+        c.nan_image += std::isnan(a);
+        c.nan_reference += std::isnan(b);
+        continue;
+      }
       if (a != b && (std::isinf(a) || std::isinf(b))) {
         ++c.infinite;
         continue;
@@ -57,6 +63,13 @@ Status compare(const ImageView<const float>& image, const ImageView<const float>
       sbb += db * (b - mb);
       sab += da * (b - mb);
     }
+  }
+  *result = c;
+  if (c.pixels == 0 && c.nan > 0) {
+    return invalid_input(fmt::format(
+        "no pixel to compare: {} are NaN (in the first image {}, in the second {}), {} infinite in "
+        "one image only",
+        c.nan, c.nan_image, c.nan_reference, c.infinite));
   }
   if (c.pixels == 0 && c.infinite > 0) {
     return invalid_input(

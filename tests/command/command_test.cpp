@@ -150,6 +150,25 @@ TEST_F(CommandTest, CompareReportsAKnownDifference) {
   EXPECT_EQ(e.view(0)(1, 0), 0);  // PFM's last row is the top one
 }
 
+// Figures of the other pixels are printed, but a script that looks at the exit code is warned.
+TEST_F(CommandTest, CompareNeverTakesNanForEqual) {
+  const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+  write("a.pfm", pfm(2, 2, {0.5f, nan, nan, inf}));
+  write("b.pfm", pfm(2, 2, {0.5f, 0.5f, nan, inf}));
+  write("nan.pfm", pfm(2, 2, {nan, nan, nan, nan}));
+  const std::string counts = "2 of 4 pixels are NaN (in the first image 2, in the second 1)";
+  expect_failure("compare a.pfm b.pfm", 3, counts);
+  expect_failure("compare a.pfm a.pfm", 3, "2 of 4 pixels are NaN");
+  expect_failure("compare nan.pfm nan.pfm", 3, "4 are NaN");
+  const CommandResult r = run("compare a.pfm b.pfm --json c.json");
+  EXPECT_NE(r.out.find("e_A 0.000 %"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("(2 pixels)"), std::string::npos) << r.out;
+  EXPECT_NE(read_file(path("c.json")).find("\"NaN\""), std::string::npos);
+  // Left out by name, it is nobody's concern.
+  write("mask.pfm", pfm(2, 2, {1, inf, inf, 1}));
+  EXPECT_EQ(run("compare a.pfm b.pfm --mask mask.pfm").code, 0);
+}
+
 TEST_F(CommandTest, DepthKindsAndCamerasFromFlags) {
   std::vector<float> depth(64 * 48, 2.0f), ndc(64 * 48);
   for (float& v : ndc) v = 10 * (2 - 1) / (2 * (10.0f - 1));  // near 1, far 10

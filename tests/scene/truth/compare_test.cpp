@@ -38,6 +38,20 @@ TEST(Compare, LeavesOutNanAndBackground) {
   ASSERT_TRUE(compare({a.data(), 4, 1}, {b.data(), 4, 1}, {mask.data(), 4, 1}, &c).ok());
   EXPECT_EQ(c.pixels, 1);
   EXPECT_EQ(c.e_a, 0);
+  EXPECT_EQ(c.nan, 2);
+  EXPECT_EQ(c.nan_image, 1);
+  EXPECT_EQ(c.nan_reference, 1);
+}
+
+TEST(Compare, SaysWhyNoPixelIsLeft) {
+  const float nan = std::nanf(""), inf = INFINITY;
+  const std::vector<float> a{nan, inf}, b{nan, 0};
+  Comparison c;
+  const Status s = compare({a.data(), 2, 1}, {b.data(), 2, 1}, {}, &c);
+  ASSERT_FALSE(s.ok());
+  EXPECT_NE(std::string(s.message()).find("1 are NaN"), std::string::npos) << s.message();
+  EXPECT_EQ(c.nan, 1);
+  EXPECT_EQ(c.infinite, 1);
 }
 
 TEST(Compare, RefusesSizesThatDoNotFit) {

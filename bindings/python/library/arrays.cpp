@@ -5,46 +5,17 @@
 namespace obscura::python {
 namespace {
 
-std::string shape_text(const py::array& a) {
-  std::string text = "(";
-  for (py::ssize_t i = 0; i < a.ndim(); ++i) {
-    text += (i ? ", " : "") + std::to_string(a.shape(i));
-  }
-  return text + (a.ndim() == 1 ? ",)" : ")");
-}
-
 // The array itself, once it is known to be what the library can read as it is.
 py::array checked(const std::string& name, const py::object& object, int dimensions) {
-  const char* wanted =
-      dimensions == 2 ? "a float32 array of shape (H, W)" : "a float32 array of shape (H, W, 3)";
-  if (!py::isinstance<py::array>(object)) {
-    const auto type = py::str(py::type::of(object).attr("__name__")).cast<std::string>();
-    throw py::type_error(name + " is a " + type + "; it must be " + wanted);
+  const char* shape = dimensions == 2 ? "(H, W)" : "(H, W, 3)";
+  const py::array array = typed_array(name, object, "float32", shape);
+  check_float(name, array);
+  if (dimensions == 3 && array.ndim() == 3 && array.shape(2) != 3) {
+    throw py::value_error(name + " has shape " + shape_text(array) +
+                          "; it must be a float32 array of shape (H, W, 3)");
   }
-  if (py::hasattr(object, "mask")) {
-    throw py::type_error(name +
-                         " is a masked array; give .filled(numpy.inf), so that what is "
-                         "masked is background");
-  }
-  const auto array = py::reinterpret_borrow<py::array>(object);
-  if (!py::dtype::of<float>().is(array.dtype()) && !array.dtype().equal(py::dtype::of<float>())) {
-    throw py::type_error(name + " is " + py::str(array.dtype()).cast<std::string>() +
-                         "; it must be float32: " + name + ".astype(numpy.float32)");
-  }
-  const bool three = dimensions == 3 && array.ndim() == 3 && array.shape(2) != 3;
-  if (array.ndim() != dimensions || three) {
-    throw py::value_error(name + " has shape " + shape_text(array) + "; it must be " + wanted);
-  }
-  for (int i = 0; i < dimensions; ++i) {
-    if (array.strides(i) % static_cast<py::ssize_t>(sizeof(float)) != 0) {
-      throw py::type_error(name + " has a step of " + std::to_string(array.strides(i)) +
-                           " bytes, no whole number of floats; numpy.ascontiguousarray copies it");
-    }
-    if (array.shape(i) > 65535) {
-      throw py::value_error(name + " has shape " + shape_text(array) +
-                            "; each side must be at most 65535");
-    }
-  }
+  check_shape(name, array, dimensions, 65535, shape);
+  for (int i = 0; i < dimensions; ++i) step_of(name, array, i);
   return array;
 }
 
@@ -74,6 +45,57 @@ py::array checked_out(const std::string& name, const py::array& array, int dimen
 }
 
 }  // namespace
+
+std::string shape_text(const py::array& a) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < a.ndim(); ++i) {
+    text += (i ? ", " : "") + std::to_string(a.shape(i));
+  }
+  return text + (a.ndim() == 1 ? ",)" : ")");
+}
+
+py::array typed_array(const std::string& name, const py::object& object, const char* types,
+                      const char* shape) {
+  if (!py::isinstance<py::array>(object)) {
+    const auto type = py::str(py::type::of(object).attr("__name__")).cast<std::string>();
+    throw py::type_error(name + " is a " + type + "; it must be a " + types + " array of shape " +
+                         shape);
+  }
+  if (py::hasattr(object, "mask")) {
+    throw py::type_error(name +
+                         " is a masked array; give .filled(numpy.inf), so that what is "
+                         "masked is background");
+  }
+  return py::reinterpret_borrow<py::array>(object);
+}
+
+void check_float(const std::string& name, const py::array& array) {
+  if (array.dtype().equal(py::dtype::of<float>())) return;
+  throw py::type_error(name + " is " + py::str(array.dtype()).cast<std::string>() +
+                       "; it must be float32: " + name + ".astype(numpy.float32)");
+}
+
+void check_shape(const std::string& name, const py::array& array, int dimensions, int longest,
+                 const char* shape) {
+  if (array.ndim() != dimensions) {
+    throw py::value_error(name + " has shape " + shape_text(array) + "; it must be " + shape);
+  }
+  for (int i = 0; i < dimensions; ++i) {
+    if (array.shape(i) > longest) {
+      throw py::value_error(name + " has shape " + shape_text(array) +
+                            "; each side must be at most " + std::to_string(longest));
+    }
+  }
+}
+
+py::ssize_t step_of(const std::string& name, const py::array& array, int axis) {
+  if (array.strides(axis) % array.itemsize() != 0) {
+    throw py::type_error(name + " has a step of " + std::to_string(array.strides(axis)) +
+                         " bytes, no whole number of " + std::to_string(array.itemsize()) +
+                         "-byte samples; numpy.ascontiguousarray copies it");
+  }
+  return array.strides(axis) / array.itemsize();
+}
 
 ImageView<const float> image(const char* name, const py::object& object) {
   if (object.is_none()) return {};

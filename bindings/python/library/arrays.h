@@ -12,6 +12,20 @@ namespace obscura::python {
 
 namespace py = pybind11;
 
+std::string shape_text(const py::array& a);
+
+// The object as the array that it is; TypeError for what is none, or a masked one. `types` and
+// `shape` say what is wanted.
+py::array typed_array(const std::string& name, const py::object& object, const char* types,
+                      const char* shape);
+// TypeError for another type than float32 in the machine's byte order.
+void check_float(const std::string& name, const py::array& array);
+// ValueError for another count of dimensions or a side that is too long.
+void check_shape(const std::string& name, const py::array& array, int dimensions, int longest,
+                 const char* shape);
+// From one sample to the next along an axis, in samples; TypeError where that is no whole number.
+py::ssize_t step_of(const std::string& name, const py::array& array, int axis);
+
 // Views of NumPy arrays, without a copy; strides as they are. Refused by TypeError that names the
 // array, what it is and what is wanted: another type than float32 in the machine's byte order, a
 // masked array, a step that is no whole number of floats; by ValueError: another shape. None gives

@@ -3,17 +3,19 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "library/arrays.h"
 #include "library/module.h"
 #include "library/run.h"
+#include "library/settings.h"
 #include "obscura/obscura.h"
 
 namespace obscura::python {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
+using Settings = GivenSettings;
 
 MethodSettings settings_of(const std::string& method, const Settings& given) {
   MethodSettings settings;
@@ -129,20 +131,23 @@ struct Frames {
   }
 };
 
-// name, unit, what it may be, default, help of every setting of a method.
-using Row = std::tuple<std::string, std::string, std::string, std::string, std::string>;
-
+// Summary, page and settings of every method.
 py::dict methods() {
   py::dict all;
   for_each_method([&](auto info, auto settings) {
-    std::vector<Row> rows;
-    visit_fields(settings, [&](const auto& value, const obscura::Field& f) {
-      using T = std::remove_cvref_t<decltype(value)>;
-      rows.emplace_back(f.name, f.unit, expected_text<T>(f), write_setting(value), f.help);
-    });
-    all[info.name] = py::make_tuple(info.summary, info.page, rows);
+    all[info.name] = py::make_tuple(info.summary, info.page, setting_rows<decltype(settings)>());
   });
   return all;
+}
+
+// The settings of what is no method, by the name of the function that takes them.
+std::map<std::string, std::vector<SettingRow>> tables() {
+  return {{"terrain", setting_rows<TerrainSettings>()},
+          {"sweep_distance", setting_rows<DistanceSettings>()},
+          {"sweep_occlusion", setting_rows<OcclusionSettings>()},
+          {"light", setting_rows<LightingSettings>()},
+          {"sky", setting_rows<SkySettings>()},
+          {"preconvolution", setting_rows<PreconvolutionSettings>()}};
 }
 
 }  // namespace
@@ -151,6 +156,7 @@ PYBIND11_MODULE(_library, m) {
   m.doc() = "The compiled part of obscura; use the package.";
   m.def("version", &version);
   m.def("methods", &methods);
+  m.def("tables", &tables);
   m.def("perspective", [](double fov_y, int w, int h, const std::array<int, 4>& g) {
     return tuple_of(Camera::perspective(static_cast<float>(fov_y), w, h, guard_of(g)));
   });
@@ -171,7 +177,9 @@ PYBIND11_MODULE(_library, m) {
   py::class_<Frames>(m, "Frames")
       .def(py::init<const std::string&, const Settings&, int, int>())
       .def("run", &Frames::run_one);
+  add_light(m);
   add_terrain(m);
+  add_volumes(m);
 }
 
 }  // namespace obscura::python

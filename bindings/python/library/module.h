@@ -6,7 +6,9 @@
 namespace obscura::python {
 
 // Each part of the module adds its functions.
+void add_light(pybind11::module_& m);
 void add_terrain(pybind11::module_& m);
+void add_volumes(pybind11::module_& m);
 
 }  // namespace obscura::python
 

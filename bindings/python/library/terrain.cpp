@@ -7,11 +7,11 @@
 #include "library/arrays.h"
 #include "library/module.h"
 #include "library/run.h"
+#include "library/settings.h"
 
 namespace obscura::python {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
 using NamedArrays = std::vector<std::pair<std::string, py::array>>;
 
 const std::map<std::string, ImageView<float> TerrainOutputs::*>& quantities() {
@@ -27,30 +27,16 @@ const std::map<std::string, ImageView<float> TerrainOutputs::*>& quantities() {
   return all;
 }
 
-TerrainSettings settings_of(const Settings& given) {
-  TerrainSettings settings;
-  for (const auto& [name, text] : given) {
-    bool known = false;
-    visit_fields(settings, [&, &name = name, &text = text](auto& value, const Field& field) {
-      if (name != field.name) return;
-      known = true;
-      raise(parse_setting(name, field, text, &value));
-    });
-    if (!known) throw py::type_error("terrain has no setting '" + name + "'");
-  }
-  return settings;
-}
-
 // Arrays of the model's size by the names of quantities; "horizon" is (azimuths, H, W).
 void compute(const py::object& heights, double cell_width, double cell_height,
-             std::optional<float> nodata, const Settings& given, const NamedArrays& arrays,
+             std::optional<float> nodata, const GivenSettings& given, const NamedArrays& arrays,
              int threads, const py::object& progress) {
   ElevationModel model;
   model.heights = image("heights", heights);
   model.cell_width = cell_width;
   model.cell_height = cell_height;
   model.nodata = nodata;
-  const TerrainSettings settings = settings_of(given);
+  const auto settings = read_settings<TerrainSettings>("terrain", given);
   const Extent size{model.heights.width, model.heights.height};
   TerrainOutputs outputs;
   std::vector<ImageView<float>> bands;
@@ -74,22 +60,8 @@ void compute(const py::object& heights, double cell_width, double cell_height,
   });
 }
 
-// name, unit, what it may be, default, help.
-std::vector<std::array<std::string, 5>> fields() {
-  std::vector<std::array<std::string, 5>> rows;
-  const TerrainSettings defaults;
-  visit_fields(defaults, [&](const auto& value, const Field& f) {
-    using T = std::remove_cvref_t<decltype(value)>;
-    rows.push_back({f.name, f.unit, expected_text<T>(f), write_setting(value), f.help});
-  });
-  return rows;
-}
-
 }  // namespace
 
-void add_terrain(py::module_& m) {
-  m.def("terrain", &compute);
-  m.def("terrain_settings", &fields);
-}
+void add_terrain(py::module_& m) { m.def("terrain", &compute); }
 
 }  // namespace obscura::python

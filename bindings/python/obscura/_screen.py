@@ -85,17 +85,23 @@ def _progress(progress):
     return progress
 
 
+def _like_image(image, array):
+    """A DataArray with the coordinates of `image`, where that is one."""
+    if not (hasattr(image, "dims") and hasattr(image, "isel")):
+        return array
+    if array.ndim == 2:
+        return image.copy(data=array)
+    return type(image)(array, dims=image.dims + ("component",), coords=image.coords)
+
+
 def _wrap(depth, guard_band, array):
-    """Results of a DataArray are DataArrays with its coordinates."""
+    """Results of a DataArray are DataArrays with the coordinates of its visible part."""
     if not (hasattr(depth, "dims") and hasattr(depth, "isel")):
         return array
     left, right, top, bottom = _guard(guard_band)
     y, x = depth.dims
-    inner = depth.isel({y: slice(top, depth.sizes[y] - bottom),
-                        x: slice(left, depth.sizes[x] - right)})
-    if array.ndim == 2:
-        return inner.copy(data=array)
-    return type(depth)(array, dims=(y, x, "component"), coords=inner.coords)
+    return _like_image(depth.isel({y: slice(top, depth.sizes[y] - bottom),
+                                   x: slice(left, depth.sizes[x] - right)}), array)
 
 
 def visibility(depth, *, camera, method="far-field", outputs=("visibility",), normals=None,

@@ -2,6 +2,7 @@
 from . import _library
 
 _METHODS = _library.methods()
+_TABLES = _library.tables()
 
 
 def methods():
@@ -9,22 +10,29 @@ def methods():
     return {name: summary for name, (summary, _, _) in _METHODS.items()}
 
 
-def settings(method):
-    """The settings of a method: name -> (what it may be, unit, default, what it means)."""
-    if method not in _METHODS:
-        raise ValueError(f"there is no method '{method}'; there are {', '.join(_METHODS)}")
-    return {name: (expected, unit, default, text)
-            for name, unit, expected, default, text in _METHODS[method][2]}
+def settings(name):
+    """The settings of a method, or of a function such as "terrain" or "sweep_distance": name ->
+    (what it may be, unit, default, what it means)."""
+    return {row[0]: (row[2], row[1], row[3], row[4]) for row in rows(name)}
 
 
-def as_text(method, given):
+def rows(name):
+    """(name, unit, what it may be, default, help, type) of every setting, as the library has them."""
+    if name in _METHODS:
+        return _METHODS[name][2]
+    if name not in _TABLES:
+        raise ValueError(f"there is no method '{name}'; there are {', '.join(_METHODS)}")
+    return _TABLES[name]
+
+
+def as_text(name, given):
     """Settings as the library reads them: pairs of names and texts."""
-    known = settings(method)
+    known = settings(name)
     pairs = []
-    for name, value in given.items():
-        if name not in known:
-            raise TypeError(f"{method} has no setting '{name}'; it has {', '.join(known)}")
-        pairs.append((name, text_of(value)))
+    for key, value in given.items():
+        if key not in known:
+            raise TypeError(f"{name} has no setting '{key}'; it has {', '.join(known)}")
+        pairs.append((key, text_of(value)))
     return pairs
 
 
@@ -37,10 +45,10 @@ def text_of(value):
     return repr(float(value))
 
 
-def table(method):
-    """The settings of a method as text, a line each."""
-    rows = []
-    for name, (expected, unit, default, text) in settings(method).items():
+def table(name):
+    """The settings of a method or function as text, a line each."""
+    lines = []
+    for key, (expected, unit, default, text) in settings(name).items():
         of = f", {unit}" if unit else ""
-        rows.append(f"    {name}: {text} [{expected}{of}; default {default}]")
-    return "\n".join(rows)
+        lines.append(f"    {key}: {text} [{expected}{of}; default {default}]")
+    return "\n".join(lines)

@@ -3,10 +3,7 @@ import numpy as np
 
 from . import _library
 from ._screen import _array, _progress
-from ._settings import text_of
-
-_FIELDS = {name: (expected, unit, default, text)
-           for name, unit, expected, default, text in _library.terrain_settings()}
+from ._settings import as_text, settings as settings_of, table
 
 
 def _cell_size(heights, cell_size):
@@ -34,10 +31,7 @@ def _cell_size(heights, cell_size):
 
 def terrain(heights, *, cell_size=None, quantities=("svf",), nodata=None, threads=0, progress=None,
             **settings):
-    for name in settings:
-        if name not in _FIELDS:
-            raise TypeError(f"terrain has no setting '{name}'; it has {', '.join(_FIELDS)}")
-    texts = [(name, text_of(value)) for name, value in settings.items()]
+    texts = as_text("terrain", settings)
     names = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     if not names:
         raise ValueError("quantities is empty; name one, such as 'svf'")
@@ -46,7 +40,7 @@ def terrain(heights, *, cell_size=None, quantities=("svf",), nodata=None, thread
     shape = np.shape(model)
     arrays = []
     for name in names:
-        azimuths = int(settings.get("azimuths", _FIELDS["azimuths"][2]))
+        azimuths = int(settings.get("azimuths", settings_of("terrain")["azimuths"][2]))
         size = (max(azimuths, 1),) + shape if name == "horizon" else shape
         arrays.append((name, np.empty(size, np.float32)))
     _library.terrain(model, width, height, None if nodata is None else float(nodata), texts, arrays,
@@ -73,5 +67,4 @@ terrain.__doc__ = """Sky-view factor, openness and horizons of an elevation mode
 
 Settings:
 
-""" + "\n".join(f"    {name}: {text} [{expected}{', ' + unit if unit else ''}; default {default}]"
-                for name, (expected, unit, default, text) in _FIELDS.items()) + "\n"
+""" + table("terrain") + "\n"

@@ -87,6 +87,8 @@ void sweep_eight(Gyroid& g, DistanceStage& first, DistanceStage& second, Executo
   const std::function<bool(double)> silent;
   Progress progress(1, silent);
   for (const bool rising : {true, false}) {
+    first.begin_pass();
+    second.begin_pass();
     (void)sweep_distance_pass(g.grid(), rising, first, second, executor, executor.thread_count(),
                               progress);
   }
@@ -98,7 +100,7 @@ double distance_loops(double* difference) {
   auto executor = make_executor(1);
   DistanceSettings settings;
   settings.solid = SolidSide::kBelow;
-  start_distance(g.view(), settings, g.grid(), *executor);
+  start_distance(g.view(), 0, settings, g.grid(), *executor);
   const int n = kLoopSide, p = n + 2;
   std::vector<float> loops(std::size_t(p) * p * p, 1e10f);
   auto at = [&](int x, int y, int z) {
@@ -139,7 +141,7 @@ void distance(benchmark::State& state) {
   settings.solid = SolidSide::kBelow;
   std::vector<Seconds> times;
   for (auto _ : state) {
-    start_distance(g.view(), settings, g.grid(), *executor);
+    start_distance(g.view(), 0, settings, g.grid(), *executor);
     times.push_back(seconds_of([&] { sweep_eight(g, first, second, *executor); }));
     state.SetIterationTime(times.back().wall);
   }

@@ -25,5 +25,6 @@
 #include "obscura/version.h"
 #include "obscura/views.h"
 #include "obscura/volume.h"
+#include "obscura/volume_blocks.h"
 
 #endif  // OBSCURA_OBSCURA_H_

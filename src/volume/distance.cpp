@@ -6,6 +6,7 @@
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
+#include "obscura/volume_blocks.h"
 #include "volume/distance_pass.h"
 #include "volume/distance_start.h"
 #include "volume/volume_access.h"
@@ -15,13 +16,6 @@ namespace {
 
 constexpr int kMaxSweeps = 800;
 
-bool cuts(const DistanceSettings& settings, const VolumeRange& range) {
-  // A value equal to the isovalue is solid.
-  return settings.solid == SolidSide::kAbove
-             ? range.min < settings.isovalue && settings.isovalue <= range.max
-             : range.min <= settings.isovalue && settings.isovalue < range.max;
-}
-
 Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridView<float> distance,
              Executor& executor, const RunOptions& run, DistanceReport* report) {
   // Of both stages, each group by a thread of its own; more threads would only wait.
@@ -30,13 +24,15 @@ Status sweep(const VolumeView& volume, const DistanceSettings& settings, GridVie
   DistanceStage first(volume.size[0], volume.size[1], volume.spacing.data(), false, workers);
   DistanceStage second(volume.size[0], volume.size[1], volume.spacing.data(), true, workers);
 
-  start_distance(volume, settings, distance, executor);
+  start_distance(volume, 0, settings, distance, executor);
   const int rounds = (settings.sweeps + 7) / 8;
   const int most = settings.converge ? kMaxSweeps / 8 : rounds;
   Progress progress(static_cast<std::int64_t>(rounds) * 2 * (volume.size[2] + 1), run.progress);
   DistanceReport done;
   for (int round = 0; round < most && !done.converged; ++round) {
     for (const bool rising : {true, false}) {
+      first.begin_pass();
+      second.begin_pass();
       if (!sweep_distance_pass(distance, rising, first, second, executor, workers, progress)) {
         return {StatusCode::kCancelled, "the distance sweep was cancelled by the caller"};
       }
@@ -72,11 +68,7 @@ Status sweep_distance(const VolumeView& volume, const DistanceSettings& settings
     RunOptions unseen;  // the range is quick and reports no progress
     unseen.executor = &executor;
     if (Status s = volume_range(volume, &range, unseen); !s.ok()) return s;
-    if (!cuts(settings, range)) {
-      return invalid_argument(text("isovalue is ", settings.isovalue,
-                                   ", which does not cut the volume; its values go from ",
-                                   range.min, " to ", range.max));
-    }
+    if (Status s = check_isovalue(range, settings); !s.ok()) return s;
     return sweep(volume, settings, distance, executor, run, report);
   });
 }

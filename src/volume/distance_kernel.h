@@ -10,6 +10,8 @@
 
 namespace obscura {
 
+struct DistancePlane;
+
 // Magnitudes during the sweeps. No distance in a grid reaches 1e30 world units. Voxels outside the
 // grid hold kOutsideDistance; they are never updated, and no update comes from them.
 inline constexpr float kUnknownDistance = 1e30f;
@@ -30,8 +32,11 @@ class DistanceStage {
   // Spacing along x, y and z. `workers`: most threads at the same time.
   DistanceStage(int width, int height, const float spacing[3], bool mirrored, int workers = 1);
 
-  // Forgets the previous plane: the next plane is the first of its direction along z.
-  void begin_pass();
+  // The next plane is the first of its direction along z. `face`, unless null: magnitudes of the
+  // plane before it as this stage left them, dense; null: it is outside the grid.
+  void begin_pass(const float* face = nullptr);
+  // Writes the magnitudes of the last of so many planes, the face of a pass that goes on from here.
+  void end_pass(int planes, float* face) const;
 
   // Updates the magnitudes of the next plane and keeps its signs, in this thread. Strides are in
   // floats.
@@ -61,6 +66,9 @@ class DistanceStage {
   Count count(int depth) const;
 
  private:
+  // Plane k as the kernel sees it.
+  DistancePlane view(const Plane& plane, int k, int worker) const;
+
   int width_, height_;
   float spacing_[3];
   bool mirrored_;

@@ -13,8 +13,6 @@ bool sweep_distance_pass(GridView<float> distance, bool rising, DistanceStage& f
     const int z = rising ? k : depth - 1 - k;
     return DistanceStage::Plane{distance.data + z * stride[2], stride[0], stride[1]};
   };
-  first.begin_pass();
-  second.begin_pass();
   if (workers == 1) {
     for (int k = 0; k <= depth; ++k) {
       if (k > 0) second.sweep(plane(k - 1).data, stride[0], stride[1]);

@@ -11,7 +11,7 @@ namespace obscura {
 // One direction along z. Each plane is swept in two stages of two orders each; a stage needs only
 // its own previous plane, so the second stage runs one plane behind the first. Threads take parts
 // of both stages in an order in which a part waits for parts taken before it only. False where
-// progress says to stop.
+// progress says to stop. Both stages have begun the pass.
 bool sweep_distance_pass(GridView<float> distance, bool rising, DistanceStage& first,
                          DistanceStage& second, Executor& executor, int workers,
                          Progress& progress);

@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "volume/distance_quadratic-inl.h"
 #include "volume/transpose-inl.h"
 
 #ifndef OBSCURA_DISTANCE_SIMD_ONCE
@@ -47,89 +48,10 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<float, 16>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
 constexpr int kLanes = HWY_LANES(float) < 16 ? HWY_LANES(float) : 16;
 // Strips swept at the same time, each a little behind the one before it. An update waits for the
 // result of the vector before; four independent strips hide this latency.
 constexpr int kTogether = 4;
-
-// |grad D| = 1 by one-sided differences, the smallest neighbour subtracted first, which keeps the
-// quadratic from cancelling (equation 1). Returns the estimate less `least`.
-template <bool kCubic>
-class Quadratic;
-
-template <>
-class Quadratic<true> {
- public:
-  explicit Quadratic(const float spacing[3]) : h_(spacing[0]) {}
-  HWY_INLINE V operator()(V a, V b, V c, V least) const {
-    const D d;
-    const V h = hn::Set(d, h_), h2 = hn::Mul(h, h);
-    const V low = hn::Min(a, b), high = hn::Max(a, b);
-    const V middle = hn::Max(low, hn::Min(high, c)), most = hn::Max(high, c);
-    // A middle neighbour farther than h does not count; a missing neighbour is treated as one at h.
-    const V e1 = hn::Min(hn::Sub(middle, least), h);
-    const V e2 = hn::Sub(most, least);
-    const V between = hn::Sub(e2, e1);
-    // The third takes part where the solution from two exceeds it.
-    const M three = hn::Lt(hn::MulAdd(e2, e2, hn::Mul(between, between)), h2);
-    const V sum = hn::Add(e1, e2), squares = hn::MulAdd(e1, e1, hn::MulSub(e2, e2, h2));
-    const V root2 = hn::NegMulAdd(e1, e1, hn::Add(h2, h2));
-    const V root3 = hn::NegMulAdd(hn::Set(d, 3.0f), squares, hn::Mul(sum, sum));
-    const V root = hn::Sqrt(hn::Max(hn::IfThenElse(three, root3, root2), hn::Zero(d)));
-    const V numerator = hn::Add(hn::IfThenElse(three, sum, e1), root);
-    return hn::Mul(numerator, hn::IfThenElse(three, hn::Set(d, 1.0f / 3), hn::Set(d, 0.5f)));
-  }
-
- private:
-  float h_;
-};
-
-template <>
-class Quadratic<false> {
- public:
-  explicit Quadratic(const float spacing[3]) {
-    for (int a = 0; a < 3; ++a) {
-      h_[a] = spacing[a];
-      w_[a] = 1 / (spacing[a] * spacing[a]);
-    }
-  }
-  HWY_INLINE V operator()(V a, V b, V c, V least) const {
-    const D d;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    V wa = hn::Set(d, w_[0]), wb = hn::Set(d, w_[1]), wc = hn::Set(d, w_[2]);
-    const V h =
-        hn::IfThenElse(hn::Eq(a, least), hn::Set(d, h_[0]),
-                       hn::IfThenElse(hn::Eq(b, least), hn::Set(d, h_[1]), hn::Set(d, h_[2])));
-    Order(a, wa, b, wb);
-    Order(b, wb, c, wc);
-    Order(a, wa, b, wb);
-    const V e1 = hn::Min(hn::Sub(b, least), h), e2 = hn::Sub(c, least);
-    const V between = hn::Sub(e2, e1);
-    const M three =
-        hn::Lt(hn::MulAdd(wa, hn::Mul(e2, e2), hn::Mul(wb, hn::Mul(between, between))), one);
-    const V w3 = hn::IfThenElse(three, wc, zero), x3 = hn::IfThenElse(three, e2, zero);
-    const V square = hn::Add(hn::Add(wa, wb), w3);
-    const V linear = hn::MulAdd(w3, x3, hn::Mul(wb, e1));
-    const V constant = hn::MulAdd(w3, hn::Mul(x3, x3), hn::MulSub(wb, hn::Mul(e1, e1), one));
-    const V root = hn::Max(hn::MulSub(linear, linear, hn::Mul(square, constant)), zero);
-    return hn::Div(hn::Add(linear, hn::Sqrt(root)), square);
-  }
-
- private:
-  static HWY_INLINE void Order(V& a, V& wa, V& b, V& wb) {
-    const M swap = hn::Gt(a, b);
-    const V low = hn::Min(a, b), w = hn::IfThenElse(swap, wb, wa);
-    b = hn::Max(a, b);
-    wb = hn::IfThenElse(swap, wa, wb);
-    a = low;
-    wa = w;
-  }
-  float h_[3], w_[3];
-};
 
 // [edge's last lane, v0, v1, ...] or, backward, [v1, ..., edge's first lane].
 template <bool kForward, class Indices>
@@ -287,6 +209,14 @@ bool SweepDistance(const DistancePlane& p, bool forward, int group, const Distan
   return changed;
 }
 
+// Between a plane of the grid and the skewed one.
+void ReadPlane(const DistancePlane& p) {
+  for (int g = 0; g * kTogether < p.strips; ++g) ReadGroup(p, g);
+}
+void WritePlane(const DistancePlane& p) {
+  for (int g = 0; g * kTogether < p.strips; ++g) WriteGroup(p, g);
+}
+
 DistanceShape ShapeOf() { return {kLanes, kTogether, kLag, kChunk}; }
 
 }  // namespace HWY_NAMESPACE
@@ -296,6 +226,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace obscura {
 HWY_EXPORT(SweepDistance);
+HWY_EXPORT(ReadPlane);
+HWY_EXPORT(WritePlane);
 HWY_EXPORT(ShapeOf);
 
 namespace {
@@ -333,13 +265,41 @@ int DistanceStage::groups_of(int height) {
   return (height + rows - 1) / rows;
 }
 
-void DistanceStage::begin_pass() {
+DistancePlane DistanceStage::view(const Plane& plane, int k, int worker) const {
+  DistancePlane p{plane.data,
+                  plane.stride_x,
+                  plane.stride_y,
+                  width_,
+                  height_,
+                  {},
+                  mirrored_,
+                  strips_,
+                  steps_,
+                  row_pitch_,
+                  planes_[k % 2],
+                  planes_[(k + 1) % 2],
+                  rows_ + worker * rows_size_};
+  std::copy_n(spacing_, 3, p.spacing);
+  return p;
+}
+
+void DistanceStage::begin_pass(const float* face) {
   next_ = 0;
-  std::fill_n(planes_[1], static_cast<std::size_t>(strips_) * steps_ * lanes_, kOutsideDistance);
+  if (face) {
+    // A face is read only, and ReadPlane writes to the skewed plane only.
+    HWY_DYNAMIC_DISPATCH(ReadPlane)(view({const_cast<float*>(face), 1, width_}, 1, 0));
+  } else {
+    std::fill_n(planes_[1], static_cast<std::size_t>(strips_) * steps_ * lanes_, kOutsideDistance);
+  }
   for (int g = 0; g < groups_; ++g) {
     forward_[static_cast<std::size_t>(g)].set(0);
     backward_[static_cast<std::size_t>(g)].set(0);
   }
+}
+
+void DistanceStage::end_pass(int planes, float* face) const {
+  std::fill_n(face, static_cast<std::ptrdiff_t>(width_) * height_, 0.0f);
+  HWY_DYNAMIC_DISPATCH(WritePlane)(view({face, 1, width_}, planes - 1, 0));
 }
 
 void DistanceStage::sweep_group(const Plane& plane, int k, bool forward, int group, int worker) {
@@ -353,13 +313,7 @@ void DistanceStage::sweep_group(const Plane& plane, int k, bool forward, int gro
     if (group + 1 < groups_) gate.before = &counts[g + 1];
     forward_[g].wait_for((k + 1) * span_);
   }
-  DistancePlane p{plane.data, plane.stride_x, plane.stride_y, width_,  height_, {},     mirrored_,
-                  strips_,    steps_,         row_pitch_,     nullptr, nullptr, nullptr};
-  p.plane = planes_[k % 2];
-  p.before = planes_[(k + 1) % 2];
-  p.rows = rows_ + worker * rows_size_;
-  std::copy_n(spacing_, 3, p.spacing);
-  if (HWY_DYNAMIC_DISPATCH(SweepDistance)(p, forward, group, gate)) {
+  if (HWY_DYNAMIC_DISPATCH(SweepDistance)(view(plane, k, worker), forward, group, gate)) {
     changed_.store(true, std::memory_order_relaxed);
   }
   counts[g].set((k + 1) * span_);

@@ -114,7 +114,7 @@ bool mark_near(const std::uint8_t* open, const std::uint8_t* const beside[4], in
 
 }  // namespace
 
-void start_distance(const VolumeView& volume, const DistanceSettings& settings,
+void start_distance(const VolumeView& volume, int first, const DistanceSettings& settings,
                     GridView<float> distance, Executor& executor) {
   const int nx = volume.size[0], ny = volume.size[1], nz = volume.size[2];
   const std::ptrdiff_t row = nx;
@@ -126,8 +126,10 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
   for (int i = 0; i < executor.thread_count(); ++i) {
     scratch.emplace_back(static_cast<std::size_t>(nx), static_cast<std::size_t>(row * ny));
   }
-  executor.parallel_for((nz + kSlab - 1) / kSlab, [&](int slab, int worker) {
-    const int begin = slab * kSlab, end = std::min(nz, begin + kSlab);
+  const int planes_out = distance.size[2];
+  executor.parallel_for((planes_out + kSlab - 1) / kSlab, [&](int slab, int worker) {
+    const int begin = first + slab * kSlab;
+    const int end = std::min(first + planes_out, begin + kSlab);
     Planes& planes = scratch[static_cast<std::size_t>(worker)];
     auto load = [&](int z, int place) {
       if (z < 0 || z >= nz) return;
@@ -145,7 +147,7 @@ void start_distance(const VolumeView& volume, const DistanceSettings& settings,
                                               y + 1 < ny ? open + row : nullptr,
                                               below ? planes.open[0].data() + at : nullptr,
                                               above ? planes.open[2].data() + at : nullptr};
-        float* out = distance.data + z * stride[2] + y * stride[1];
+        float* out = distance.data + (z - first) * stride[2] + y * stride[1];
         for (int x = 0; x < nx; ++x) {
           out[x * stride[0]] = open[x] ? kUnknownDistance : -kUnknownDistance;
         }

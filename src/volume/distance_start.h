@@ -6,8 +6,9 @@
 namespace obscura {
 
 // Writes the signed distances of the voxels beside the isosurface and +-kUnknownDistance elsewhere.
-// The settings are valid.
-void start_distance(const VolumeView& volume, const DistanceSettings& settings,
+// `distance` has the volume's planes from `first` on; planes of the volume before and after them
+// are their neighbours. The settings are valid.
+void start_distance(const VolumeView& volume, int first, const DistanceSettings& settings,
                     GridView<float> distance, Executor& executor);
 
 }  // namespace obscura

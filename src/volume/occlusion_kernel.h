@@ -39,6 +39,10 @@ struct OcclusionSweep {
   int count = 0;  // of directions, 1 ... kMaxDirections
   // Visibility at each voxel, 255 is open: channel slot * count + direction.
   std::uint8_t* visibility = nullptr;
+  // W = V tau of the plane before the first, and of the last; null: open, or not wanted. A fraction
+  // of 32767 for each direction, quadrant, y and x, the last fastest.
+  const std::int16_t* upwind = nullptr;
+  std::int16_t* downwind = nullptr;
 };
 
 // Bit 0 or 1 of a quadrant is set for light from the positive side of x or y. Quadrants that the
@@ -62,6 +66,8 @@ class OcclusionPipeline {
   // Sweeps planes until all are taken or `done`, called after each, says false. Called once for
   // each worker in [0, workers), at the same time or one after another.
   void work(int worker, FunctionRef<bool()> done);
+  // Writes the sweeps' downwind planes, once all workers are done.
+  void finish();
 
   // Strips of the whole sweep, each of one direction or of those swept together, and those of the
   // longest chain in which each must wait for the one before.

@@ -135,6 +135,37 @@ void SweepPlane(const OcclusionSweep& sweep, int k, const OcclusionMemory& memor
   }
 }
 
+// Calls body(index in the skewed state, index in the plain plane) for every voxel of a plane in
+// every direction and quadrant.
+template <class Body>
+void ForFace(const OcclusionSweep& sweep, const Body& body) {
+  const Layout layout = LayoutOf(sweep);
+  const std::ptrdiff_t width = sweep.size[0], height = sweep.size[1];
+  for (int i = 0; i < sweep.count; ++i) {
+    for (int order = 0; order < 4; ++order) {
+      const int group = order % kGroups, side = order / kGroups;
+      const std::ptrdiff_t to =
+          (i * kGroups + group) * layout.strips * layout.strip_size() * kSides +
+          std::ptrdiff_t{side} * kRows;
+      const std::ptrdiff_t from = (i * 4 + kQuadrantOfSlot[order]) * width * height;
+      for (std::ptrdiff_t y = 0; y < height; ++y) {
+        const std::ptrdiff_t strip = y / kRows, lane = y % kRows;
+        for (std::ptrdiff_t x = 0; x < width; ++x) {
+          const std::ptrdiff_t column = order >= 2 ? width - 1 - x : x;
+          body(to + (strip * layout.steps + x + lane) * kLanes + lane, from + y * width + column);
+        }
+      }
+    }
+  }
+}
+void ReadFace(const OcclusionSweep& sweep, std::int16_t* state) {
+  ForFace(sweep, [&](std::ptrdiff_t at, std::ptrdiff_t plain) { state[at] = sweep.upwind[plain]; });
+}
+void WriteFace(const OcclusionSweep& sweep, const std::int16_t* state) {
+  ForFace(sweep,
+          [&](std::ptrdiff_t at, std::ptrdiff_t plain) { sweep.downwind[plain] = state[at]; });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace obscura
 HWY_AFTER_NAMESPACE();
@@ -143,6 +174,8 @@ HWY_AFTER_NAMESPACE();
 namespace obscura {
 HWY_EXPORT(SizesOf);
 HWY_EXPORT(SweepPlane);
+HWY_EXPORT(ReadFace);
+HWY_EXPORT(WriteFace);
 
 namespace {
 
@@ -171,7 +204,12 @@ struct OcclusionPipeline::Half {
         apart(s.directions[0].stencil == Stencil::kCharacteristic),
         plane(sizes.plane_state),
         state((apart ? 2 : 1) * sizes.plane_state, 32767),
-        counts(static_cast<std::size_t>(s.size[2])) {}
+        counts(static_cast<std::size_t>(s.size[2])) {
+    if (sweep.upwind) HWY_DYNAMIC_DISPATCH(ReadFace)(sweep, after(-1));
+  }
+
+  // W after plane k.
+  std::int16_t* after(int k) { return state.data() + (apart && k % 2 ? plane : 0); }
 
   OcclusionSweep sweep;
   bool apart;
@@ -212,15 +250,20 @@ void OcclusionPipeline::work(int worker, FunctionRef<bool()> done) {
     Half& half = *halves_[(static_cast<std::size_t>(worker) + i) % count];
     // A plane that is taken is swept to its end, as the next one may wait for it.
     for (int k = half.next++; k < half.sweep.size[2]; k = half.next++) {
-      std::int16_t* const even = half.state.data();
-      std::int16_t* const odd = half.apart ? even + half.plane : even;
-      const OcclusionMemory memory{k % 2 ? odd : even, k % 2 ? even : odd,   mine.opacity.data(),
-                                   mine.out.data(),    mine.tau_rows.data(), mine.out_rows.data()};
+      const OcclusionMemory memory{half.after(k),   half.after(k - 1),    mine.opacity.data(),
+                                   mine.out.data(), mine.tau_rows.data(), mine.out_rows.data()};
       const auto at = static_cast<std::size_t>(k);
       HWY_DYNAMIC_DISPATCH(SweepPlane)
       (half.sweep, k, memory, k > 0 ? &half.counts[at - 1] : nullptr, &half.counts[at]);
       if (!done()) return;
     }
+  }
+}
+
+void OcclusionPipeline::finish() {
+  for (const std::unique_ptr<Half>& half : halves_) {
+    if (!half->sweep.downwind) continue;
+    HWY_DYNAMIC_DISPATCH(WriteFace)(half->sweep, half->after(half->sweep.size[2] - 1));
   }
 }
 

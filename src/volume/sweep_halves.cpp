@@ -1,12 +1,55 @@
 #include "volume/sweep_halves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "volume/volume_access.h"
 
 namespace obscura {
+
+void set_occlusion_grid(const GridView<const float>& distance, const OcclusionSettings& settings,
+                        VisibilityFieldImpl* field) {
+  VisibilityFieldImpl& f = *field;
+  f.transport = settings.transport;
+  f.scheme = transport_scheme(settings.transport, distance.spacing);
+  f.alpha = settings.alpha;
+  const int cell = f.scheme.cell;
+  for (int a = 0; a < 3; ++a) {
+    f.size[a] = (distance.size[a] + cell - 1) / cell;
+    f.spacing[a] = cell * distance.spacing[a];
+    f.origin[a] = 0.5f * static_cast<float>(cell - 1) * distance.spacing[a];
+    // The last voxel of an odd number reaches beyond the border.
+    f.end[a] = static_cast<float>(distance.size[a] - 1) * distance.spacing[a] - f.origin[a];
+  }
+}
+
+float occlusion_unit(const VisibilityFieldImpl& field) {
+  return std::cbrt(field.spacing[0]) * std::cbrt(field.spacing[1]) * std::cbrt(field.spacing[2]);
+}
+
+void occlusion_tau(const GridView<const float>& distance, const VisibilityFieldImpl& f,
+                   Executor& executor, std::uint8_t* tau) {
+  const int cell = f.scheme.cell;
+  const auto stride = distance.strides();
+  const float scale = 1 / (occlusion_unit(f) * static_cast<float>(cell * cell * cell));
+  executor.parallel_for(f.size[2], [&](int z, int) {
+    for (int y = 0; y < f.size[1]; ++y) {
+      const float* rows[4];
+      int count = 0;
+      for (int k = 0; k < cell; ++k) {
+        for (int j = 0; j < cell; ++j) {
+          rows[count++] = distance.data + std::min(z * cell + k, distance.size[2] - 1) * stride[2] +
+                          std::min(y * cell + j, distance.size[1] - 1) * stride[1];
+        }
+      }
+      transmittance_row(rows, count, stride[0], distance.size[0], cell, scale, f.alpha,
+                        tau + static_cast<std::size_t>(f.size[0]) *
+                                  (y + static_cast<std::size_t>(f.size[1]) * z));
+    }
+  });
+}
 
 void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, int halves,
                   Executor& executor, Progress& progress, VisibilityFieldImpl* field) {

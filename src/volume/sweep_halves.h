@@ -12,6 +12,15 @@
 
 namespace obscura {
 
+// The grid that visibility is swept on: its scheme, size and place.
+void set_occlusion_grid(const GridView<const float>& distance, const OcclusionSettings& settings,
+                        VisibilityFieldImpl* field);
+// What tau is measured in (equation 7): the geometric mean of the spacing.
+float occlusion_unit(const VisibilityFieldImpl& field);
+// Transmittance of each of its voxels from the mean of the distances there.
+void occlusion_tau(const GridView<const float>& distance, const VisibilityFieldImpl& field,
+                   Executor& executor, std::uint8_t* tau);
+
 // Sweeps the halves of the field that are asked for (bit 0 and 1 of `halves`) through
 // transmittances as bytes.
 void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, int halves,

@@ -62,7 +62,7 @@ TEST(Distance, AgreesWithPlainLoopsWhenNothingChangesAnyMore) {
       const Grid ours = swept(f, settings);
       Grid plain(n, h);
       auto executor = make_executor(1);
-      start_distance(view_of(f), settings, out_of(plain), *executor);
+      start_distance(view_of(f), 0, settings, out_of(plain), *executor);
       reference::sweep_distance(plain, 12);
       EXPECT_LT(largest_difference(ours, plain), 2e-5) << n[0] << "x" << n[1] << "x" << n[2];
     }

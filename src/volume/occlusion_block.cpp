@@ -1,0 +1,128 @@
+// Blocks of the occlusion sweep.
+#include <algorithm>
+#include <memory>
+
+#include "core/guarded.h"
+#include "core/progress.h"
+#include "core/run_threads.h"
+#include "core/text.h"
+#include "obscura/volume_blocks.h"
+#include "volume/occlusion_kernel.h"
+#include "volume/sweep_halves.h"
+#include "volume/visibility_field.h"
+
+namespace obscura {
+namespace {
+
+constexpr const char* kWhat = "a block of the occlusion sweep; use smaller blocks";
+
+Status not_started() {
+  return invalid_input("the block has no transmittances; call start with its distances first");
+}
+
+}  // namespace
+
+class OcclusionBlockImpl {
+ public:
+  VisibilityField field;
+  std::unique_ptr<std::uint8_t[]> tau;
+
+  VisibilityFieldImpl& f() { return field.impl(); }
+  std::size_t samples() const { return field.impl().voxels() * field.impl().channels(); }
+};
+
+OcclusionBlock::OcclusionBlock() = default;
+OcclusionBlock::~OcclusionBlock() = default;
+OcclusionBlock::OcclusionBlock(OcclusionBlock&&) noexcept = default;
+OcclusionBlock& OcclusionBlock::operator=(OcclusionBlock&&) noexcept = default;
+
+Status OcclusionBlock::start(GridView<const float> distance, const OcclusionSettings& settings,
+                             const RunOptions& run) {
+  if (Status s = check_sweep(distance, settings); !s.ok()) return s;
+  if (settings.precision != VisibilityPrecision::kU8) {
+    return unsupported("precision is f32; blocks are swept as u8");
+  }
+  return guarded(kWhat, [&]() -> Status {
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    auto block = std::make_unique<OcclusionBlockImpl>();
+    set_occlusion_grid(distance, settings, &block->f());
+    block->f().scheme.plane = false;  // light() of a block goes without the table of planes
+    block->tau.reset(new std::uint8_t[block->f().voxels()]);
+    occlusion_tau(distance, block->f(), threads.executor(), block->tau.get());
+    impl_ = std::move(block);
+    return {};
+  });
+}
+
+std::size_t OcclusionBlock::face_size() const {
+  if (!impl_) return 0;
+  const VisibilityFieldImpl& f = impl_->field.impl();
+  return f.channels() * static_cast<std::size_t>(f.size[0]) * static_cast<std::size_t>(f.size[1]);
+}
+
+Status OcclusionBlock::sweep(bool rising, std::span<const std::int16_t> upwind,
+                             std::span<std::int16_t> downwind, const RunOptions& run) {
+  if (!impl_) return not_started();
+  for (const auto& [name, given] :
+       {std::pair{"upwind", upwind.size()}, {"downwind", downwind.size()}}) {
+    if (given != 0 && given != face_size()) {
+      return invalid_input(text(name, " holds ", given, " numbers; it must be empty or hold ",
+                                face_size(), ", as face_size() says"));
+    }
+  }
+  for (const std::int16_t w : upwind) {
+    if (w < 0) return invalid_input(text("upwind holds ", w, "; it must be in [0, 32767]"));
+  }
+  return guarded(kWhat, [&]() -> Status {
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    Executor& executor = threads.executor();
+    VisibilityFieldImpl& f = impl_->f();
+    const int half = rising ? 0 : 1;
+    if (!f.bytes[half]) f.bytes[half].reset(new std::uint8_t[impl_->samples()]);
+    const OcclusionSweep sweep{impl_->tau.get(),
+                               f.size,
+                               rising,
+                               f.scheme.directions.data(),
+                               f.directions(),
+                               f.bytes[half].get(),
+                               upwind.empty() ? nullptr : upwind.data(),
+                               downwind.empty() ? nullptr : downwind.data()};
+    const int workers = std::min(executor.thread_count(), OcclusionPipeline::most_workers(sweep));
+    OcclusionPipeline pipeline(std::span(&sweep, 1), workers);
+    Progress progress(f.size[2], run.progress);
+    executor.parallel_for(workers, [&](int worker, int) {
+      if (!progress.cancelled()) pipeline.work(worker, [&] { return progress.advance(); });
+    });
+    if (progress.cancelled()) return sweep_cancelled();
+    pipeline.finish();
+    return {};
+  });
+}
+
+std::span<const std::uint8_t> OcclusionBlock::half(bool rising) const {
+  if (!impl_ || !impl_->field.impl().bytes[rising ? 0 : 1]) return {};
+  return {impl_->field.impl().bytes[rising ? 0 : 1].get(), impl_->samples()};
+}
+
+Status OcclusionBlock::restore(bool rising, std::span<const std::uint8_t> visibility) {
+  if (!impl_) return not_started();
+  if (visibility.size() != impl_->samples()) {
+    return invalid_input(text("visibility holds ", visibility.size(), " bytes; it must hold ",
+                              impl_->samples(), ", as half() of this block"));
+  }
+  return guarded(kWhat, [&]() -> Status {
+    std::unique_ptr<std::uint8_t[]>& bytes = impl_->f().bytes[rising ? 0 : 1];
+    if (!bytes) bytes.reset(new std::uint8_t[visibility.size()]);
+    std::copy(visibility.begin(), visibility.end(), bytes.get());
+    return {};
+  });
+}
+
+const VisibilityField& OcclusionBlock::field() const {
+  static const VisibilityField kEmpty;
+  return impl_ ? impl_->field : kEmpty;
+}
+
+}  // namespace obscura

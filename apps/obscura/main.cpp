@@ -6,6 +6,7 @@
 #include <new>
 
 #include "apps/obscura/app.h"
+#include "apps/obscura/file_checks.h"
 #include "apps/obscura/programs.h"
 #include "fmt/format.h"
 #include "io/images/exr.h"
@@ -90,6 +91,9 @@ int run(int argc, char** argv) {
     return fail(e.what(), kBadUsage);
   }
   if (Status s = limit_simd_from_environment(); !s.ok()) return fail(s.message(), kBadUsage);
+  for (const CLI::App* command : app.cli.get_subcommands()) {
+    if (Status s = check_files(*command); !s.ok()) return fail(s.message(), exit_code(s));
+  }
   tools::catch_interrupts();
   const Status status = app.action();
   if (!status.ok()) return fail(status.message(), exit_code(status));

@@ -195,11 +195,26 @@ Status write_text(const std::string& path, std::string_view bytes) {
   });
 }
 
-Status check_readable(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return invalid_input(fmt::format("cannot read {}: it is a folder", path));
+namespace {
+
+// What can be read as a file: no folder and no device, which may never end.
+Status check_kind(const std::string& path, bool pipes) {
+  struct stat info = {};
+  const char* what = nullptr;
+  if (stat(path.c_str(), &info) != 0) what = std::strerror(errno);
+  if (!what && S_ISDIR(info.st_mode)) what = "it is a folder";
+  if (!what && S_ISFIFO(info.st_mode) && !pipes) {
+    what = "it is a pipe, and this kind is not read in order; write it to a file first";
   }
+  if (!what && !S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) what = "it is a device, no file";
+  if (!what) return {};
+  return invalid_input(fmt::format("cannot read {}: {}", path, what));
+}
+
+}  // namespace
+
+Status check_readable(const std::string& path) {
+  if (Status s = check_kind(path, false); !s.ok()) return s;
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) return invalid_input(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
   const bool empty = std::fgetc(file) == EOF;
@@ -209,7 +224,7 @@ Status check_readable(const std::string& path) {
 }
 
 Status read_bytes(const std::string& path, std::string* bytes, std::size_t limit) {
-  if (Status s = check_readable(path); !s.ok()) return s;
+  if (Status s = check_kind(path, true); !s.ok()) return s;
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) return invalid_input(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
   bytes->clear();
@@ -224,6 +239,9 @@ Status read_bytes(const std::string& path, std::string* bytes, std::size_t limit
   const bool failed = std::ferror(file) != 0;
   std::fclose(file);
   if (failed) return invalid_input(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  if (bytes->empty()) {
+    return invalid_input(fmt::format("cannot read {}: the file is empty", path));
+  }
   if (bytes->size() > limit) {
     return invalid_input(fmt::format("cannot read {}: it is larger than {} bytes", path, limit));
   }

@@ -97,13 +97,19 @@ class Temporary {
   // Gives the file its name, in place of an older file. 0 or errno.
   int take_name(const std::string& target) {
     if (fsync(file_) != 0 && errno != EINVAL) return errno;
-    if (!named_) {
-      // A link cannot replace a file: it gets a name of its own first, for a moment.
+    if (named_) {
+      const int closed = close(file_);
+      file_ = -1;
+      if (closed != 0) return errno;
+    } else {
+      // A name that is free is taken in one step.
+      const std::string open_file = path_;
+      if (linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, target.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+        return 0;
+      }
+      // A link cannot replace a file: it gets a name of its own first, until the next line.
       if (const int error = link_beside(); error != 0) return error;
     }
-    const int closed = close(file_);
-    file_ = -1;
-    if (closed != 0) return errno;
     if (std::rename(path_.c_str(), target.c_str()) != 0) return errno;
     named_ = false;
     return 0;

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <vector>
 
 #include "fmt/format.h"
@@ -16,7 +19,11 @@ namespace {
 
 constexpr int kMostPixels = 65535;  // on a side
 // Deflate shrinks by at most 1032; a file smaller than that allows holds no such image.
-constexpr std::size_t kMostCompression = 1040;
+constexpr std::size_t kMostCompression = 1032;
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
 
 // libpng reports an error by a jump, past frames that must therefore own nothing. The two functions
 // that set the jump's target (read_samples, write_samples) keep everything here.
@@ -24,7 +31,8 @@ struct Session {
   std::string_view in;  // reading
   std::size_t at = 0;
   std::string* out = nullptr;  // writing
-  std::vector<png_byte> samples;
+  // From calloc: what no data have come for takes no memory.
+  std::unique_ptr<png_byte[], Free> samples;
   std::vector<png_bytep> rows;
   int width = 0, height = 0, channels = 0, bits = 0;
   char error[160] = "";
@@ -51,9 +59,10 @@ void on_write(png_structp png, png_bytep data, png_size_t size) {
 }
 
 void set_rows(Session* s, std::size_t row_bytes) {
-  s->samples.resize(row_bytes * s->height);
+  s->samples.reset(static_cast<png_byte*>(std::calloc(row_bytes, std::size_t(s->height))));
+  if (!s->samples) throw std::bad_alloc();
   s->rows.resize(s->height);
-  for (int y = 0; y < s->height; ++y) s->rows[y] = s->samples.data() + y * row_bytes;
+  for (int y = 0; y < s->height; ++y) s->rows[y] = s->samples.get() + y * row_bytes;
 }
 
 bool read_samples(png_structp png, png_infop info, Session* s) {
@@ -61,6 +70,10 @@ bool read_samples(png_structp png, png_infop info, Session* s) {
   png_set_read_fn(png, nullptr, on_read);
   png_set_user_limits(png, kMostPixels, kMostPixels);
   png_read_info(png, info);
+  if (png_get_rowbytes(png, info) * png_get_image_height(png, info) / kMostCompression >
+      s->in.size()) {
+    png_error(png, "truncated: too few bytes for its size");
+  }
   png_set_palette_to_rgb(png);
   png_set_expand_gray_1_2_4_to_8(png);
   png_set_strip_alpha(png);
@@ -71,10 +84,6 @@ bool read_samples(png_structp png, png_infop info, Session* s) {
   s->height = static_cast<int>(png_get_image_height(png, info));
   s->channels = png_get_channels(png, info);
   s->bits = png_get_bit_depth(png, info);
-  // A palette or a few bits per pixel grow up to 24 times when they are expanded.
-  if (png_get_rowbytes(png, info) * s->height / kMostCompression / 24 > s->in.size()) {
-    png_error(png, "truncated: too few bytes for its size");
-  }
   set_rows(s, png_get_rowbytes(png, info));
   png_read_image(png, s->rows.data());
   png_read_end(png, nullptr);

@@ -1,65 +1,17 @@
 // Volumes: distances, occlusion and light at points of a surface.
 #include <pybind11/stl.h>
 
-#include "library/arrays.h"
 #include "library/module.h"
 #include "library/run.h"
 #include "library/settings.h"
+#include "library/volume_arrays.h"
 #include "obscura/volume.h"
 
 namespace obscura::python {
 namespace {
 
-constexpr int kMaxSide = 8192;
-
-// Samples of an array as VolumeView has them. An array (Z, Y, X) is read in place: its last axis is
-// x.
-VolumeView volume_view(const py::object& object, const std::array<double, 3>& spacing_zyx,
-                       double slope, double intercept) {
-  const py::array a = typed_array("volume", object, "uint8, int16, uint16 or float32", "(Z, Y, X)");
-  VolumeView v;
-  const py::dtype type = a.dtype();
-  if (type.equal(py::dtype::of<std::uint8_t>())) {
-    v.type = VoxelType::kU8;
-  } else if (type.equal(py::dtype::of<std::int16_t>())) {
-    v.type = VoxelType::kI16;
-  } else if (type.equal(py::dtype::of<std::uint16_t>())) {
-    v.type = VoxelType::kU16;
-  } else if (!type.equal(py::dtype::of<float>())) {
-    throw py::type_error("volume is " + std::string(py::str(a.attr("dtype"))) +
-                         "; it must be uint8, int16, uint16 or float32: "
-                         "volume.astype(numpy.float32)");
-  }
-  check_shape("volume", a, 3, kMaxSide, "(Z, Y, X)");
-  v.data = a.data();
-  for (int i = 0; i < 3; ++i) {
-    v.size[i] = static_cast<int>(a.shape(2 - i));
-    v.spacing[i] = static_cast<float>(spacing_zyx[2 - i]);
-    v.stride[i] = step_of("volume", a, 2 - i);
-  }
-  v.slope = static_cast<float>(slope);
-  v.intercept = static_cast<float>(intercept);
-  return v;
-}
-
-// A float32 array (Z, Y, X), read in place.
-GridView<const float> grid(const char* name, const py::object& object,
-                           const std::array<double, 3>& spacing_zyx) {
-  const py::array a = typed_array(name, object, "float32", "(Z, Y, X)");
-  check_float(name, a);
-  check_shape(name, a, 3, kMaxSide, "(Z, Y, X)");
-  GridView<const float> g;
-  g.data = static_cast<const float*>(a.data());
-  for (int i = 0; i < 3; ++i) {
-    g.size[i] = static_cast<int>(a.shape(2 - i));
-    g.spacing[i] = static_cast<float>(spacing_zyx[2 - i]);
-    g.stride[i] = step_of(name, a, 2 - i);
-  }
-  return g;
-}
-
 GridView<float> grid_out(const char* name, py::array array, const std::array<int, 3>& size) {
-  const GridView<const float> g = grid(name, array, {1, 1, 1});
+  const GridView<const float> g = float_grid(name, array, {1, 1, 1});
   if (g.size != size) {
     throw py::value_error(std::string(name) + " has shape " + shape_text(array) +
                           "; its volume has (" + std::to_string(size[2]) + ", " +
@@ -157,7 +109,7 @@ std::unique_ptr<Swept> occlusion(const py::object& distance, const std::array<do
                                  const GivenSettings& given,
                                  const std::optional<std::array<float, 3>>& to_light, int threads,
                                  const py::object& progress) {
-  const GridView<const float> view = grid("distance", distance, spacing);
+  const GridView<const float> view = float_grid("distance", distance, spacing);
   const auto settings =
       read_settings<OcclusionSettings>(to_light ? "sweep_shadow" : "sweep_occlusion", given);
   auto swept = std::make_unique<Swept>();

@@ -16,6 +16,8 @@ def _array(name, value):
         return value
     if hasattr(value, "dims") and hasattr(value, "values"):  # xarray
         return value.values
+    if hasattr(value, "array") and hasattr(value, "spacing"):  # obscura.Volume
+        return value.array
     if hasattr(value, "__dlpack__"):
         return np.from_dlpack(value)
     if hasattr(value, "__array_interface__"):

@@ -3,6 +3,9 @@ from . import _library
 
 _METHODS = _library.methods()
 _TABLES = _library.tables()
+# Tables of the part that is loaded at its first use.
+_OF_FILES = {"gbuffer": "view_settings", "truth": "truth_settings",
+             "read_depth": "depth_file_settings", "volume_picture": "picture_settings"}
 
 
 def methods():
@@ -20,6 +23,9 @@ def rows(name):
     """(name, unit, what it may be, default, help, type) of every setting, as the library has them."""
     if name in _METHODS:
         return _METHODS[name][2]
+    if name in _OF_FILES and name not in _TABLES:
+        from . import _files
+        _TABLES[name] = getattr(_files, _OF_FILES[name])()
     if name not in _TABLES:
         raise ValueError(f"there is no method '{name}'; there are {', '.join(_METHODS)}")
     return _TABLES[name]
@@ -42,6 +48,8 @@ def text_of(value):
         return "true" if value else "false"
     if isinstance(value, (str, int)):
         return str(value)
+    if isinstance(value, (tuple, list)):
+        return ",".join(text_of(v) for v in value)
     return repr(float(value))
 
 

@@ -6,6 +6,28 @@ from ._screen import _array, _progress
 from ._settings import as_text, table
 
 
+class Volume:
+    """A volume of a file.
+
+    array: its samples, (Z, Y, X); a voxel's value is slope * sample + intercept. spacing: (z, y, x).
+    isovalue, solid: what the file itself says of its surface, or None. notes: what was chosen on
+    reading, a line each. Goes in wherever an array does.
+    """
+
+    def __init__(self, array, spacing=(1.0, 1.0, 1.0), slope=1.0, intercept=0.0):
+        self.array, self.spacing = array, tuple(spacing)
+        self.slope, self.intercept = slope, intercept
+        self.isovalue = self.solid = self._loaded = None
+        self.notes = []
+
+    @classmethod
+    def _of_file(cls, tools, loaded):
+        v = cls(tools.Loaded.samples(loaded), loaded.spacing(), *loaded.scale())
+        v.isovalue, v.solid, v.notes, v._loaded = (loaded.isovalue(), loaded.solid(),
+                                                   loaded.notes(), loaded)
+        return v
+
+
 def _spacing(volume, spacing):
     """(z, y, x) steps of the array: as given, or from the coordinates of a DataArray."""
     if spacing is not None:
@@ -14,6 +36,8 @@ def _spacing(volume, spacing):
             raise ValueError(f"spacing is {spacing}; it must be a number or three, in the order of "
                              "the axes: (z, y, x)")
         return [float(s) for s in steps]
+    if isinstance(volume, Volume):
+        return [float(s) for s in volume.spacing]
     if not hasattr(volume, "coords"):
         return [1.0, 1.0, 1.0]
     steps = []
@@ -44,6 +68,8 @@ def _out(shape, out):
 def sweep_distance(volume, *, isovalue, spacing=None, slope=1.0, intercept=0.0, out=None, threads=0,
                    progress=None, **settings):
     texts = as_text("sweep_distance", {"isovalue": isovalue, **settings})
+    if isinstance(volume, Volume):
+        slope, intercept = volume.slope, volume.intercept
     array = _array("volume", volume)
     result = _out(np.shape(array), out)
     _library.distances(array, _spacing(volume, spacing), slope, intercept, texts, result, threads,

@@ -10,6 +10,7 @@
 #include "apps/obscura/volume_input.h"
 #include "io/images/files.h"
 #include "io/images/image.h"
+#include "scene/volumes/field_blocks.h"
 #include "scene/volumes/volume_light.h"
 #include "scene/volumes/volume_picture.h"
 #include "scene/volumes/volume_view.h"
@@ -18,7 +19,7 @@
 namespace obscura::app {
 
 enum class VolumeMethod { kSweep, kMonteCarlo };
-enum class FieldsKind { kOctants, kScalar, kDistance };
+using tools::FieldsKind;
 
 struct PictureSettings {
   VolumeMethod method = VolumeMethod::kSweep;
@@ -44,10 +45,6 @@ namespace obscura {
 template <>
 struct EnumNames<app::VolumeMethod> {
   static constexpr const char* names[] = {"sweep", "monte-carlo"};
-};
-template <>
-struct EnumNames<app::FieldsKind> {
-  static constexpr const char* names[] = {"octants", "scalar", "distance"};
 };
 
 namespace app {

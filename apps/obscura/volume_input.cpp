@@ -58,9 +58,8 @@ void VolumeInputOptions::add_to(CLI::App* command) {
       ->group(group);
 }
 
-Status VolumeInputOptions::load(const std::string& path, int threads,
-                                tools::VolumeImage* image) const {
-  std::optional<tools::RawLayout> raw;
+Status VolumeInputOptions::read_layout(std::optional<tools::RawLayout>* layout) const {
+  std::optional<tools::RawLayout>& raw = *layout;
   if (!size_.empty()) {
     raw.emplace();
     double size[3];
@@ -80,6 +79,25 @@ Status VolumeInputOptions::load(const std::string& path, int threads,
   } else if (!type_.empty() || !spacing_.empty() || big_endian_) {
     return invalid_argument("--raw-type, --raw-spacing and --raw-big-endian need --raw-size");
   }
+  return {};
+}
+
+Status VolumeInputOptions::open(const std::string& path, tools::PlaneFile* file) const {
+  std::optional<tools::RawLayout> raw;
+  if (Status s = read_layout(&raw); !s.ok()) return s;
+  if (!clip_.empty()) {
+    return unsupported("--clip needs the whole volume in memory; cut the file itself");
+  }
+  if (!choice_.grid.empty() || choice_.index) {
+    return unsupported("--grid and --volume-index are for files that are read whole");
+  }
+  return file->open(path, raw);
+}
+
+Status VolumeInputOptions::load(const std::string& path, int threads,
+                                tools::VolumeImage* image) const {
+  std::optional<tools::RawLayout> raw;
+  if (Status s = read_layout(&raw); !s.ok()) return s;
   tools::ClipBox box;
   if (!clip_.empty()) {
     if (Status s = tools::parse_clip(clip_, &box); !s.ok()) return s;

@@ -14,8 +14,12 @@ class VolumeInputOptions {
   void add_to(CLI::App* command);
 
   Status load(const std::string& path, int threads, tools::VolumeImage* image) const;
+  // For volumes that are read plane by plane: refuses what only whole ones have.
+  Status open(const std::string& path, tools::PlaneFile* file) const;
 
  private:
+  Status read_layout(std::optional<tools::RawLayout>* raw) const;
+
   std::string size_, type_, spacing_, clip_;
   tools::VolumeChoice choice_;
   bool big_endian_ = false;

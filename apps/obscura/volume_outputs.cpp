@@ -11,26 +11,18 @@ namespace obscura::app {
 Status write_volume_fields(const std::string& path, FieldsKind kind,
                            const tools::VolumeImage& image, const std::vector<float>& distance,
                            const VisibilityField& field, const RunOptions& run) {
-  tools::FieldGrid grid;
+  const tools::FieldGrid grid = tools::field_grid(kind, image, field);
   std::vector<tools::NamedField> fields;
-  const tools::Double3 h = image.spacing();
+  for (const std::string& name : tools::field_names(kind)) fields.push_back({name, {}});
   if (kind == FieldsKind::kDistance) {
-    grid = {image.size, image.axes, image.origin};
-    fields.push_back({"distance", distance});
+    fields[0].values = distance;
   } else {
-    grid.size = field.size();
-    const auto spacing = field.spacing(), origin = field.origin();
-    grid.origin = image.to_world({origin[0], origin[1], origin[2]});
-    for (int a = 0; a < 3; ++a) {
-      for (int k = 0; k < 3; ++k) grid.axes[a][k] = image.axes[a][k] / h[a] * spacing[a];
-    }
     const std::size_t voxels = std::size_t(grid.size[0]) * grid.size[1] * grid.size[2];
-    const int count = kind == FieldsKind::kScalar ? 1 : 8;
-    for (int s = 0; s < count; ++s) {
-      fields.push_back({count == 1 ? "visibility" : fmt::format("visibility_octant_{}", s),
-                        std::vector<float>(voxels)});
-      const GridView<float> view(fields.back().values.data(), grid.size, spacing);
-      if (Status status = count == 1 ? field.scalar(view, run) : field.octant(s, view);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      fields[i].values.resize(voxels);
+      const GridView<float> view(fields[i].values.data(), grid.size, field.spacing());
+      if (Status status = kind == FieldsKind::kScalar ? field.scalar(view, run)
+                                                      : field.octant(static_cast<int>(i), view);
           !status.ok()) {
         return status;
       }

@@ -13,7 +13,7 @@
 // memory, or that several machines hold together: the caller carries faces from block to block by
 // any transport. The bits are those of sweep_distance and sweep_occlusion for any slabs.
 //
-// A face holds no padding and does not depend on the processor's vectors.
+// A face holds no padding and is the same for every SIMD target.
 
 namespace obscura {
 
@@ -47,6 +47,10 @@ OBSCURA_API Status sweep_distance_block(GridView<float> distance, bool rising,
                                         std::span<const float> upwind, std::span<float> downwind,
                                         bool* changed = nullptr, const RunOptions& run = {});
 
+// Voxels of the volume along a side of a voxel of the field: blocks but the last must have a
+// multiple of it as planes.
+constexpr int field_cell(Transport transport) { return transport == Transport::kPaper ? 1 : 2; }
+
 class OcclusionBlockImpl;
 
 // The occlusion sweep through one block. Each half of the octants is a sweep of its own: light from
@@ -58,9 +62,8 @@ class OBSCURA_API OcclusionBlock {
   OcclusionBlock(OcclusionBlock&&) noexcept;
   OcclusionBlock& operator=(OcclusionBlock&&) noexcept;
 
-  // Takes the block's transmittances from its finished distances. Every block but the last must
-  // have an even number of planes, as voxels of the field are made of two planes (kPaper: of one).
-  // Refuses VisibilityPrecision::kF32.
+  // Takes the block's transmittances from its finished distances; every block but the last has a
+  // multiple of field_cell() as planes. Refuses VisibilityPrecision::kF32.
   Status start(GridView<const float> distance, const OcclusionSettings& settings,
                const RunOptions& run = {});
 

@@ -16,6 +16,31 @@
 #include "fmt/format.h"
 
 namespace obscura::tools {
+// Names of temporary files that stand in folders now, for remove_temporaries(). A slot's owner sets
+// its name before it says so.
+struct TemporarySlot {
+  std::atomic<int> state{0};  // 0: free, 1: being changed, 2: there is a file
+  char name[4200];
+};
+namespace {
+TemporarySlot g_slots[64];
+}
+
+TemporaryName::TemporaryName(const std::string& name) {
+  if (name.size() >= sizeof(TemporarySlot::name)) return;
+  for (TemporarySlot& slot : g_slots) {
+    int free = 0;
+    if (!slot.state.compare_exchange_strong(free, 1)) continue;
+    std::memcpy(slot.name, name.c_str(), name.size() + 1);
+    slot.state = 2;
+    slot_ = &slot;
+    return;
+  }
+}
+TemporaryName::~TemporaryName() {
+  if (slot_) slot_->state = 0;
+}
+
 namespace {
 
 Status cannot(const char* verb, const std::string& path, const std::string& reason) {
@@ -30,38 +55,6 @@ mode_t wanted_mode(const std::string& path) {
   umask(mask);
   return 0666 & ~mask;
 }
-
-// Names of temporary files that stand in folders now, for remove_temporaries(). A slot's owner sets
-// its name before it says so.
-struct Slot {
-  std::atomic<int> state{0};  // 0: free, 1: being changed, 2: there is a file
-  char name[4200];
-};
-Slot g_slots[64];
-
-class TemporaryName {
- public:
-  // Before the file is made, so that it cannot be missed.
-  explicit TemporaryName(const std::string& name) {
-    if (name.size() >= sizeof(Slot::name)) return;
-    for (Slot& slot : g_slots) {
-      int free = 0;
-      if (!slot.state.compare_exchange_strong(free, 1)) continue;
-      std::memcpy(slot.name, name.c_str(), name.size() + 1);
-      slot.state = 2;
-      slot_ = &slot;
-      return;
-    }
-  }
-  ~TemporaryName() {
-    if (slot_) slot_->state = 0;
-  }
-  TemporaryName(const TemporaryName&) = delete;
-  TemporaryName& operator=(const TemporaryName&) = delete;
-
- private:
-  Slot* slot_ = nullptr;
-};
 
 // The file that is written before it takes its name. Where the system has files without a name, it
 // gets one only when it is whole, so that nothing is left even where the process is killed.
@@ -183,7 +176,7 @@ Status write_atomically(const std::string& path,
 }
 
 void remove_temporaries() {
-  for (const Slot& slot : g_slots) {
+  for (const TemporarySlot& slot : g_slots) {
     if (slot.state == 2) unlink(slot.name);
   }
 }

@@ -26,6 +26,21 @@ class IgnoreFileSizeSignal {
   struct sigaction old_ = {};
 };
 
+struct TemporarySlot;
+
+// A file that stands under a temporary name: remove_temporaries() removes it as long as this lasts.
+class TemporaryName {
+ public:
+  // Before the file is made, so that it cannot be missed.
+  explicit TemporaryName(const std::string& name);
+  ~TemporaryName();
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+
+ private:
+  TemporarySlot* slot_ = nullptr;
+};
+
 // Writes a file so that it is whole or not there: `write` fills the temporary file that it is
 // given, in the same folder, which then takes the name. On failure, a full disk included, the
 // temporary file is removed and an older file of that name stays as it was. A link is followed;

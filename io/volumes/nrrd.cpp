@@ -207,9 +207,16 @@ Status read_slab(const std::string& path, const std::string& file, bool gzip, st
   return read_samples(source, stored, swap, slab);
 }
 
-}  // namespace
+// Header, place and samples of a file.
+struct Samples {
+  std::vector<std::string> files;
+  std::int64_t offset = 0;
+  bool gzip = false, ascii = false, swap = false;
+  double lines = 0, skip = 0;
+  StoredType stored{};
+};
 
-Status read_nrrd(const std::string& path, VolumeImage* image) {
+Status describe(const std::string& path, VolumeImage* image, Samples* samples) {
   NrrdHeader h;
   if (Status s = read_nrrd_header(path, &h); !s.ok()) return s;
   VolumeImage result;
@@ -217,8 +224,7 @@ Status read_nrrd(const std::string& path, VolumeImage* image) {
   result.format = "NRRD";
   std::vector<int> kept;
   if (Status s = parse_sizes(path, h, &result, &kept); !s.ok()) return s;
-  StoredType stored;
-  if (!stored_type(h.get("type"), &stored)) {
+  if (!stored_type(h.get("type"), &samples->stored)) {
     return invalid_input(
         fmt::format("{}: its type is \"{}\"; it must be a scalar such as uchar, "
                     "short, float",
@@ -226,50 +232,61 @@ Status read_nrrd(const std::string& path, VolumeImage* image) {
   }
   if (Status s = place(path, h, kept, &result); !s.ok()) return s;
   if (Status s = check_geometry(result); !s.ok()) return s;
-  std::vector<std::string> data;
-  std::int64_t offset = 0;
-  if (Status s = find_nrrd_data(path, h, &data, &offset); !s.ok()) return s;
+  if (Status s = find_nrrd_data(path, h, &samples->files, &samples->offset); !s.ok()) return s;
 
   const std::string encoding = lower(h.get("encoding"));
   const std::string endian = lower(h.get("endian"));
-  const bool raw = encoding == "raw", gzip = encoding == "gzip" || encoding == "gz";
-  const bool ascii = encoding == "ascii" || encoding == "text" || encoding == "txt";
-  if (!raw && !gzip && !ascii) {
+  const bool raw = encoding == "raw";
+  samples->gzip = encoding == "gzip" || encoding == "gz";
+  samples->ascii = encoding == "ascii" || encoding == "text" || encoding == "txt";
+  if (!raw && !samples->gzip && !samples->ascii) {
     return invalid_input(fmt::format("{}: its encoding is \"{}\"; it must be raw, gzip or ascii",
                                      path, h.get("encoding")));
   }
-  if (!ascii && bytes_of(stored) > 1 && endian != "little" && endian != "big") {
+  if (!samples->ascii && bytes_of(samples->stored) > 1 && endian != "little" && endian != "big") {
     return invalid_input(
         fmt::format("{}: its endian is \"{}\"; it must be little or big", path, h.get("endian")));
   }
-  double lines = 0, skip = 0;
-  for (auto [key, value] : {std::pair{"line skip", &lines}, std::pair{"byte skip", &skip}}) {
+  samples->swap = (endian == "big") != (std::endian::native == std::endian::big);
+  for (auto [key, value] :
+       {std::pair{"line skip", &samples->lines}, std::pair{"byte skip", &samples->skip}}) {
     const std::string text = h.get(key);
     if (!text.empty() && (!parse_number(text, value) || !(*value >= -1 && *value < 1e15))) {
       return invalid_input(
           fmt::format("{}: its {} is \"{}\"; it must be a count", path, key, text));
     }
   }
-  if (ascii) {
-    if (data.size() > 1) {
+  *image = std::move(result);
+  return {};
+}
+
+}  // namespace
+
+Status read_nrrd(const std::string& path, VolumeImage* image) {
+  VolumeImage result;
+  Samples samples;
+  if (Status s = describe(path, &result, &samples); !s.ok()) return s;
+  if (samples.ascii) {
+    if (samples.files.size() > 1) {
       return invalid_input(fmt::format("{}: text samples in several files are not read", path));
     }
-    if (Status s = read_ascii(data[0], offset, &result); !s.ok()) return s;
-    result.stored_type = name_of(stored);
+    if (Status s = read_ascii(samples.files[0], samples.offset, &result); !s.ok()) return s;
+    result.stored_type = name_of(samples.stored);
     *image = std::move(result);
     return {};
   }
-  const auto files = static_cast<int>(data.size());
+  const auto files = static_cast<int>(samples.files.size());
   if (result.size[2] % files != 0) {
     return invalid_input(
         fmt::format("{}: {} files cannot share its {} planes evenly", path, files, result.size[2]));
   }
-  const bool swap = (endian == "big") != (std::endian::native == std::endian::big);
   VolumeImage slab = result;
   slab.size[2] = result.size[2] / files;
-  for (const std::string& file : data) {
+  for (const std::string& file : samples.files) {
     slab.name = file;
-    if (Status s = read_slab(path, file, gzip, offset, lines, skip, stored, swap, &slab); !s.ok()) {
+    if (Status s = read_slab(path, file, samples.gzip, samples.offset, samples.lines, samples.skip,
+                             samples.stored, samples.swap, &slab);
+        !s.ok()) {
       return s;
     }
     if (files == 1) {
@@ -283,6 +300,38 @@ Status read_nrrd(const std::string& path, VolumeImage* image) {
   result.slope = slab.slope;
   result.intercept = slab.intercept;
   *image = std::move(result);
+  return {};
+}
+
+Status find_nrrd_planes(const std::string& path, VolumeImage* image, PlaneSamples* planes) {
+  Samples samples;
+  if (Status s = describe(path, image, &samples); !s.ok()) return s;
+  const char* why = samples.gzip               ? "are compressed"
+                    : samples.ascii            ? "are text"
+                    : samples.files.size() > 1 ? "are in several files"
+                    : samples.lines > 0        ? "begin after lines of text (line skip)"
+                                               : nullptr;
+  if (why) {
+    return unsupported(fmt::format(
+        "{}: its samples {}; planes can be read one by one of raw samples in one file", path, why));
+  }
+  planes->file = samples.files[0];
+  planes->stored = samples.stored;
+  planes->swap = samples.swap;
+  planes->offset = samples.offset;
+  const auto bytes = std::int64_t(bytes_of(samples.stored)) * image->voxels();
+  std::error_code error;
+  const auto length = std::int64_t(std::filesystem::file_size(planes->file, error));
+  if (error) return invalid_input(fmt::format("cannot read {}: {}", planes->file, error.message()));
+  // -1: the samples are the file's last bytes.
+  planes->offset =
+      samples.skip == -1 ? length - bytes : planes->offset + std::int64_t(samples.skip);
+  if (planes->offset < 0 || length - planes->offset < bytes) {
+    return invalid_input(fmt::format(
+        "{}: its header promises {}x{}x{} samples of {}, {} bytes; the file holds at most {}", path,
+        image->size[0], image->size[1], image->size[2], name_of(samples.stored), bytes,
+        std::max<std::int64_t>(0, length - planes->offset)));
+  }
   return {};
 }
 

@@ -10,14 +10,13 @@
 
 namespace obscura::tools {
 
-Status write_nrrd(const std::string& path, const FieldGrid& grid,
-                  std::span<const NamedField> fields) {
-  const bool many = fields.size() > 1;
+std::string nrrd_field_header(const FieldGrid& grid, std::span<const std::string> names) {
+  const bool many = names.size() > 1;
   auto vector = [](const Double3& v) { return fmt::format("({},{},{})", v[0], v[1], v[2]); };
   std::string header = "NRRD0005\n# Written by obscura\ntype: float\n";
   header += fmt::format("dimension: {}\n", many ? 4 : 3);
   header += "space: right-anterior-superior\n";
-  header += fmt::format("sizes: {}{} {} {}\n", many ? fmt::format("{} ", fields.size()) : "",
+  header += fmt::format("sizes: {}{} {} {}\n", many ? fmt::format("{} ", names.size()) : "",
                         grid.size[0], grid.size[1], grid.size[2]);
   header += fmt::format("space directions: {}{} {} {}\n", many ? "none " : "", vector(grid.axes[0]),
                         vector(grid.axes[1]), vector(grid.axes[2]));
@@ -25,10 +24,18 @@ Status write_nrrd(const std::string& path, const FieldGrid& grid,
   header += std::endian::native == std::endian::little ? "endian: little\n" : "endian: big\n";
   header += "encoding: raw\n";
   header += fmt::format("space origin: {}\n", vector(grid.origin));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    header += fmt::format("field {}:={}\n", i, fields[i].name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    header += fmt::format("field {}:={}\n", i, names[i]);
   }
-  header += "\n";
+  return header + "\n";
+}
+
+Status write_nrrd(const std::string& path, const FieldGrid& grid,
+                  std::span<const NamedField> fields) {
+  const bool many = fields.size() > 1;
+  std::vector<std::string> names;
+  for (const NamedField& field : fields) names.push_back(field.name);
+  const std::string header = nrrd_field_header(grid, names);
   return write_atomically(path, [&](const std::string& temporary) -> Status {
     std::ofstream file(temporary, std::ios::binary);
     file << header;

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 
 #include "io/images/files.h"
-#include "io/volumes/byte_source.h"
 #include "io/volumes/nifti.h"
 #include "io/volumes/nrrd.h"
 #include "io/volumes/vdb.h"
@@ -33,43 +31,10 @@ Format format_of(const std::string& spec) {
   return Format::kNone;
 }
 
-StoredType stored_type(VoxelType type) {
-  switch (type) {
-    case VoxelType::kU8:
-      return StoredType::kU8;
-    case VoxelType::kI16:
-      return StoredType::kI16;
-    case VoxelType::kU16:
-      return StoredType::kU16;
-    case VoxelType::kF32:
-      return StoredType::kF32;
-  }
-  return StoredType::kF32;
-}
-
 Status read_raw(const std::string& path, const RawLayout& layout, VolumeImage* image) {
-  ByteSource source;
-  if (Status s = source.open(path, ByteSource::kPlain); !s.ok()) return s;
-  VolumeImage result;
-  result.name = path;
-  result.format = "raw";
-  result.size = layout.size;
-  for (int a = 0; a < 3; ++a) {
-    result.axes[a] = {};
-    result.axes[a][a] = layout.spacing[a];
-  }
-  if (Status s = check_geometry(result); !s.ok()) return s;
-  const StoredType stored = stored_type(layout.type);
-  const std::int64_t wanted = result.voxels() * std::int64_t(bytes_of(stored));
-  if (wanted != source.most_bytes()) {
-    return invalid_input(fmt::format("{}: has {} bytes; {}x{}x{} voxels of {} need exactly {}",
-                                     path, source.most_bytes(), layout.size[0], layout.size[1],
-                                     layout.size[2], name_of(stored), wanted));
-  }
-  const bool swap = layout.big_endian != (std::endian::native == std::endian::big);
-  if (Status s = read_samples(source, stored, swap, &result); !s.ok()) return s;
-  *image = std::move(result);
-  return {};
+  PlaneFile file;
+  if (Status s = file.open_raw(path, layout); !s.ok()) return s;
+  return file.read(0, layout.size[2], image);
 }
 
 Status load(Format format, const std::string& spec, const std::optional<RawLayout>& raw,

@@ -4,18 +4,10 @@
 #include <optional>
 
 #include "io/report/json.h"
+#include "io/volumes/planes.h"
 #include "io/volumes/volume_image.h"
 
 namespace obscura::tools {
-
-// What a .raw file does not contain: its layout. x runs fastest, samples are little-endian unless
-// `big_endian`.
-struct RawLayout {
-  std::array<int, 3> size{};
-  VoxelType type = VoxelType::kU8;
-  Double3 spacing{1, 1, 1};
-  bool big_endian = false;
-};
 
 // Which of several volumes in a file.
 struct VolumeChoice {

@@ -198,7 +198,6 @@ class FarFieldMethod final : public Method {
                    .tap_count = count_taps(segment, row, near, p.height),
                    .intervals = intervals,
                    .interval_count = 0,
-                   .phase_lines = buffer_.phase_lines(),
                    .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
                    .slack = join_slack(p),
                    .dither = dither(direction, segment),

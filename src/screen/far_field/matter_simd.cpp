@@ -50,7 +50,8 @@ void AddMatterSlices(const SliceRow& job) {
     if (job.far_alone) m.sum = m.sum_x = m.sum_y = m.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
       const IntervalRead& read = job.intervals[k];
-      const int line = std::clamp(i + read.middle, -PrefixSums::kPadding, job.phase_lines);
+      const int line = std::clamp(i + read.middle, read.line.window.begin - PrefixSums::kPadding,
+                                  read.line.window.end);
       const V nearest = hn::LoadU(d, read.line.nearest + line);
       const M valid = hn::Lt(nearest, inf);
       const V depth = hn::IfThenElse(valid, nearest, one);

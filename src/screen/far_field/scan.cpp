@@ -14,42 +14,69 @@ constexpr int kMaxInterval = 64;
 
 int round_up(int n) { return (n + kVector - 1) / kVector * kVector; }
 
+// Lines of any phase that meet rows [first, last) of the image, a texel around it included.
+LineWindow window_of(const Plane& plane, const LineLayout& layout, int phase_lines, int first,
+                     int last) {
+  const int step = plane.lattice.phases();
+  const double a = layout.shift(first), b = layout.shift(last - 1);
+  // Line i of a phase lies at texel + i * step; of the farthest right and left texel.
+  const int right = step + static_cast<int>(std::floor(std::max(a, b)));
+  const int left = static_cast<int>(std::floor(std::min(a, b)));
+  const int low = std::max(0, (-1 - right) / step);
+  const int high = (plane.width - left + step - 1) / step;
+  const int begin = low / kVector * kVector;
+  return {begin, std::clamp(round_up(high), begin, std::max(begin, round_up(phase_lines)))};
+}
+
 }  // namespace
 
 void ScanBuffer::resize(const Plane& plane, const Direction& direction, int interval,
                         int line_step) {
   const LineLayout layout(plane.width, plane.height, direction, line_step);
-  phases_.count = plane.lattice.phases() / line_step;
-  phase_lines_ = (layout.lines + phases_.count - 1) / phases_.count;
-  phases_.stride = round_up(phase_lines_ + 1) + 3 * PrefixSums::kPadding;
+  phases_ = plane.lattice.phases() / line_step;
+  phase_lines_ = (layout.lines + phases_ - 1) / phases_;
   pyramid_ = StripLevels(plane.height, direction.strip_offset, interval);
-  const int width = static_cast<int>(phases_.stride) * phases_.count, rows = pyramid_.all();
-  nearest_.resize(width, rows);
-  slanted_.resize(width, rows);
+  strips_.clear();
+  int rows = 0;
+  for (int level = 0; level < levels(); ++level) {
+    const int size = interval << level;
+    for (int strip = 0; strip < strips(level); ++strip) {
+      const int start = strip * size - direction.strip_offset;
+      const LineWindow window = window_of(plane, layout, phase_lines_, std::max(start, 0),
+                                          std::min(start + size, plane.height));
+      strips_.push_back({window, rows});
+      rows += stride(window) / kVector * phases_;
+    }
+  }
+  nearest_.resize(kVector, rows);
+  slanted_.resize(kVector, rows);
   if (plane.finite) {
-    deepest_.resize(width, rows);
+    deepest_.resize(kVector, rows);
     for (auto* image : {&begin_, &end_, &rest_front_, &rest_back_, &rest_filled_})
-      image->resize(width, rows);
+      image->resize(kVector, rows);
   } else {
-    depth_.resize(width, rows);
-    outward_.resize(width, rows);
-    count_.resize(width, rows);
+    depth_.resize(kVector, rows);
+    outward_.resize(kVector, rows);
+    count_.resize(kVector, rows);
   }
 }
 
+std::ptrdiff_t ScanBuffer::origin(const Strip& s, int phase) const {
+  return std::ptrdiff_t{phase} * stride(s.window) + PrefixSums::kPadding - s.window.begin;
+}
 PrefixSums ScanBuffer::sums(int level, int strip, int phase) {
-  const int i = pyramid_.index(level, strip);
-  const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
-  return {depth_.row(i) + at, outward_.row(i) + at, count_.row(i) + at};
+  const Strip& s = strips_[static_cast<std::size_t>(pyramid_.index(level, strip))];
+  const std::ptrdiff_t at = origin(s, phase);
+  return {depth_.row(s.row) + at, outward_.row(s.row) + at, count_.row(s.row) + at, s.window};
 }
 RawStrip ScanBuffer::raw(int level, int strip, int phase) {
-  const int i = pyramid_.index(level, strip);
-  const std::ptrdiff_t at = phase * phases_.stride + PrefixSums::kPadding;
+  const Strip& s = strips_[static_cast<std::size_t>(pyramid_.index(level, strip))];
+  const std::ptrdiff_t at = origin(s, phase);
   auto row = [&](AlignedImage<float>& image) {
-    return image.empty() ? nullptr : image.row(i) + at;
+    return image.empty() ? nullptr : image.row(s.row) + at;
   };
-  return {row(nearest_), row(slanted_),    row(deepest_),   row(begin_),
-          row(end_),     row(rest_front_), row(rest_back_), row(rest_filled_)};
+  return {row(nearest_),    row(slanted_),   row(deepest_),     row(begin_), row(end_),
+          row(rest_front_), row(rest_back_), row(rest_filled_), s.window};
 }
 
 std::size_t ScanBuffer::bytes() const {
@@ -69,8 +96,8 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
   ScanRow rows[kMaxInterval];
   const int start = strip * interval - direction.strip_offset, first = std::max(start, 0);
   const int count = std::max(0, std::min(start + interval, plane.height) - first);
-  const int padded = round_up(buffer->phase_lines());
-  int begin = padded, end = 0;
+  const LineWindow window = buffer->window(0, strip);
+  int begin = window.end, end = 0;
   for (int i = 0; i < count; ++i) {
     const int r = first + i, v = direction.sign > 0 ? r : plane.height - 1 - r;
     const double shift = layout.shift(r), whole = std::floor(shift);
@@ -94,13 +121,13 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
     begin = std::min(begin, aligned);
     end = std::max(end, high);
   }
-  end = std::clamp(round_up(end), begin, padded);
+  end = std::clamp(round_up(end), begin, window.end);
   const RawStrip out = buffer->raw(0, strip, phase);
   constexpr float kInf = std::numeric_limits<float>::infinity();
   constexpr int kPad = PrefixSums::kPadding;
   auto clear = [&](float* row, float value) {
-    std::fill(row - kPad, row + begin, value);
-    std::fill(row + end, row + padded + kPad, value);
+    std::fill(row + window.begin - kPad, row + begin, value);
+    std::fill(row + end, row + window.end + kPad, value);
   };
   clear(out.nearest, kInf);
   clear(out.slanted, -kInf);
@@ -139,21 +166,12 @@ void scan(const Plane& plane, const Direction& direction, const ScanSettings& se
   for (int level = 1; level < buffer->levels(); ++level) {
     executor.parallel_for(buffer->strips(level), [&](int strip, int) {
       const int a = 2 * strip, b = std::min(a + 1, buffer->strips(level - 1) - 1);
-      const int lines = round_up(buffer->phase_lines()) + 2 * PrefixSums::kPadding;
-      auto raw = [&](int l, int i, int phase) {
-        RawStrip r = buffer->raw(l, i, phase);
-        for (float** row : {&r.nearest, &r.slanted, &r.deepest, &r.begin, &r.end, &r.rest_front,
-                            &r.rest_back, &r.rest_filled}) {
-          if (*row) *row -= PrefixSums::kPadding;
-        }
-        return r;
-      };
       for (int phase = 0; phase < buffer->phases(); ++phase) {
-        const RawStrip out = raw(level, strip, phase);
-        const RawStrip first = raw(level - 1, a, phase), second = raw(level - 1, b, phase);
-        plane.finite
-            ? merge_matter(lines, slack, plane.scale_v, first, b > a ? &second : nullptr, out)
-            : merge_strips(lines, first, second, out);
+        const RawStrip out = buffer->raw(level, strip, phase);
+        const RawStrip first = buffer->raw(level - 1, a, phase);
+        const RawStrip second = buffer->raw(level - 1, b, phase);
+        plane.finite ? merge_matter(slack, plane.scale_v, first, b > a ? &second : nullptr, out)
+                     : merge_strips(first, second, out);
       }
     });
   }
@@ -167,7 +185,7 @@ void sum(const Plane& plane, const Direction& direction, const ScanSettings& set
   executor.parallel_for(buffer->all_strips(), [&](int index, int) {
     int level = 0, strip = index;
     while (strip >= buffer->strips(level)) strip -= buffer->strips(level++);
-    sum_lines(layout.lines, buffer->phases(), buffer->phase_stride(), slope,
+    sum_lines(layout.lines, buffer->phases(), buffer->phase_stride(level, strip), slope,
               buffer->raw(level, strip, 0), buffer->sums(level, strip, 0));
   });
 }

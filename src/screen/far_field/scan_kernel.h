@@ -29,13 +29,14 @@ void scan_strip(const StripJob& job);
 // The same for finite occluders: of each line's connected pieces of matter, the nearest.
 void scan_matter(const StripJob& job);
 
-// Maxima of two strips of the level below; of matter `b` may be null, where there is no second.
-void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out);
-void merge_matter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
+// Maxima of two strips of the level below, for the lines of `out`'s window and its padding; of
+// matter `b` may be null, where there is no second.
+void merge_strips(const RawStrip& a, const RawStrip& b, const RawStrip& out);
+void merge_matter(float slack, float row, const RawStrip& a, const RawStrip* b,
                   const RawStrip& out);
 
-// Running sums over all lines in their order, phase after phase; `strip` and `sums` are those of
-// phase 0, the next lies `phase_stride` farther.
+// Running sums over all lines of the window in their order, phase after phase; `strip` and `sums`
+// are those of phase 0, the next lies `phase_stride` farther.
 void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
                const RawStrip& strip, const PrefixSums& sums);
 

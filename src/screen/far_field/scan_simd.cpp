@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -92,26 +93,42 @@ void ScanMatter(const StripJob& job) {
   }
 }
 
-void MergeMatter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
-                 const RawStrip& out) {
+// A line as a strip holds it: beyond the window's padding nothing is seen, as in it.
+HWY_INLINE int LineIn(const RawStrip& s, int j) {
+  return std::clamp(j, s.window.begin - PrefixSums::kPadding, s.window.end);
+}
+
+template <class Merge>
+HWY_INLINE void ForEachLine(const RawStrip& out, const Merge& merge) {
   const D d;
-  for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    const leaf::Matter merged =
-        leaf::merged_matter(LoadMatter(a, j), b ? LoadMatter(*b, j) : leaf::no_matter(),
-                            hn::Set(d, slack), hn::Set(d, row));
-    StoreMatter(merged, out, j);
+  const int end = out.window.end + PrefixSums::kPadding;
+  for (int j = out.window.begin - PrefixSums::kPadding; j < end;
+       j += static_cast<int>(hn::Lanes(d))) {
+    merge(j);
   }
 }
 
-void MergeStrips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
+void MergeMatter(float slack, float row, const RawStrip& a, const RawStrip* b,
+                 const RawStrip& out) {
   const D d;
-  for (int j = 0; j < lines; j += static_cast<int>(hn::Lanes(d))) {
-    const Piece p{hn::LoadU(d, a.nearest + j), hn::LoadU(d, a.slanted + j), hn::Zero(d),
-                  hn::Zero(d), hn::Zero(d)};
-    const Piece q{hn::LoadU(d, b.nearest + j), hn::LoadU(d, b.slanted + j), hn::Zero(d),
-                  hn::Zero(d), hn::Zero(d)};
-    StorePiece(leaf::merged_strips(p, q), out, j);
-  }
+  ForEachLine(out, [&](int j) HWY_ATTR {
+    const leaf::Matter merged = leaf::merged_matter(
+        LoadMatter(a, LineIn(a, j)), b ? LoadMatter(*b, LineIn(*b, j)) : leaf::no_matter(),
+        hn::Set(d, slack), hn::Set(d, row));
+    StoreMatter(merged, out, j);
+  });
+}
+
+void MergeStrips(const RawStrip& a, const RawStrip& b, const RawStrip& out) {
+  const D d;
+  auto load = [&](const RawStrip& s, int j) HWY_ATTR {
+    const int at = LineIn(s, j);
+    return Piece{hn::LoadU(d, s.nearest + at), hn::LoadU(d, s.slanted + at), hn::Zero(d),
+                 hn::Zero(d), hn::Zero(d)};
+  };
+  ForEachLine(out, [&](int j) HWY_ATTR {
+    StorePiece(leaf::merged_strips(load(a, j), load(b, j)), out, j);
+  });
 }
 
 }  // namespace far_field::HWY_NAMESPACE
@@ -138,20 +155,20 @@ void scan_strip(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanStrip)(job); }
 
 void scan_matter(const StripJob& job) { HWY_DYNAMIC_DISPATCH(ScanMatter)(job); }
 
-void merge_matter(int lines, float slack, float row, const RawStrip& a, const RawStrip* b,
+void merge_matter(float slack, float row, const RawStrip& a, const RawStrip* b,
                   const RawStrip& out) {
-  HWY_DYNAMIC_DISPATCH(MergeMatter)(lines, slack, row, a, b, out);
+  HWY_DYNAMIC_DISPATCH(MergeMatter)(slack, row, a, b, out);
 }
 
-void merge_strips(int lines, const RawStrip& a, const RawStrip& b, const RawStrip& out) {
-  HWY_DYNAMIC_DISPATCH(MergeStrips)(lines, a, b, out);
+void merge_strips(const RawStrip& a, const RawStrip& b, const RawStrip& out) {
+  HWY_DYNAMIC_DISPATCH(MergeStrips)(a, b, out);
 }
 
 // A running sum is a chain of additions, which lanes would not shorten.
 void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
                const RawStrip& strip, const PrefixSums& sums) {
   constexpr int kPad = PrefixSums::kPadding;
-  const int phase_lines = (lines + phases - 1) / phases;
+  const LineWindow& window = strip.window;
   double depth = 0, outward = 0;
   float count = 0;
   auto set = [&](std::ptrdiff_t at) {
@@ -164,8 +181,8 @@ void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
       for (int i = from; i < to; ++i) set(phase * phase_stride + i);
     }
   };
-  pad(-kPad, 0);
-  for (int i = 0; i < phase_lines; ++i) {
+  pad(window.begin - kPad, window.begin);
+  for (int i = window.begin; i < window.end; ++i) {
     for (int phase = 0; phase < phases; ++phase) {
       const std::ptrdiff_t at = phase * phase_stride + i;
       set(at);
@@ -178,7 +195,7 @@ void sum_lines(int lines, int phases, std::ptrdiff_t phase_stride, float slope,
       count += surface ? 1.0f : 0.0f;
     }
   }
-  pad(phase_lines, phase_lines + 2 * kPad);
+  pad(window.end, window.end + 2 * kPad);
 }
 
 }  // namespace obscura::far_field

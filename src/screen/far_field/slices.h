@@ -50,7 +50,6 @@ struct SliceRow {
   int tap_count;
   const IntervalRead* intervals;
   int interval_count;
-  int phase_lines;
 
   // Finite occluders.
   float slope;   // of the scan's second height: +1 or -1

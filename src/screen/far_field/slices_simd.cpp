@@ -57,8 +57,9 @@ void AddSlices(const SliceRow& job) {
     if (job.far_alone) h.sum = h.sum_x = h.sum_y = h.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
       const IntervalRead& read = job.intervals[k];
-      const int first = std::clamp(i + read.first, -lanes, job.phase_lines);
-      const int last = std::clamp(i + read.last, -lanes, job.phase_lines);
+      const LineWindow& window = read.from.window;
+      const int first = std::clamp(i + read.first, window.begin - lanes, window.end);
+      const int last = std::clamp(i + read.last, window.begin - lanes, window.end);
       const V count =
           hn::Sub(hn::LoadU(d, read.to.count + last), hn::LoadU(d, read.from.count + first));
       const M valid = hn::And(r.surface, hn::Gt(count, zero));

@@ -121,6 +121,11 @@ std::vector<ScanCase> cases() {
   return all;
 }
 
+// Where a strip holds a line; one outside its window is as those beside it, which see nothing.
+int place_in(const RawStrip& raw, int line) {
+  return std::clamp(line, raw.window.begin - 1, raw.window.end);
+}
+
 // Calls check(geometry, plane, direction, layout, buffer) for every direction of K = 8 in each
 // case.
 template <class Check>
@@ -169,7 +174,7 @@ TEST(Scan, FindsTheMaximaOfEveryLineAtEveryLevel) {
           }
           const Found expected = maxima(steps);
           const RawStrip raw = buffer->raw(level, strip, line % buffer->phases());
-          const int at = line / buffer->phases();
+          const int at = place_in(raw, line / buffer->phases());
           ++(steps.empty() ? holes : surfaces);
           if (steps.empty()) {
             ASSERT_EQ(raw.nearest[at], kInf);
@@ -223,7 +228,7 @@ TEST(Scan, KeepsTheNearestConnectedPieceOfMatter) {
                  }
                  several += runs.size() > 1;
                  const RawStrip raw = buffer->raw(0, strip, line % buffer->phases());
-                 const int at = line / buffer->phases();
+                 const int at = place_in(raw, line / buffer->phases());
                  if (runs.empty()) {
                    ASSERT_EQ(raw.nearest[at], kInf);
                    continue;
@@ -260,7 +265,7 @@ TEST(Scan, JoinsTouchingMatterOnTheWayUp) {
               const int phase = line % buffer->phases(), at = line / buffer->phases();
               auto found = [&](int l, int s) {
                 const RawStrip r = buffer->raw(l, s, phase);
-                return found_in(r, at);
+                return found_in(r, place_in(r, at));
               };
               Found near = found(level - 1, 2 * strip);
               if (2 * strip + 1 < buffer->strips(level - 1)) {
@@ -310,23 +315,25 @@ TEST(Scan, SumsRunOverAllLinesBefore) {
         double depth = 0, outward = 0, count = 0;
         for (int line = 0; line <= layout.lines; ++line) {
           const PrefixSums sums = buffer->sums(level, strip, line % phases);
-          const int at = line / phases;
+          const int at = std::clamp(line / phases, sums.window.begin, sums.window.end);
           ASSERT_NEAR(sums.depth[at], depth, 1e-12 * (1 + depth));
           ASSERT_NEAR(sums.outward[at], outward, 1e-5);
           ASSERT_EQ(sums.count[at], count);
           if (line == layout.lines) break;
           const RawStrip raw = buffer->raw(level, strip, line % phases);
-          if (raw.nearest[at] == kInf) continue;
-          depth += raw.nearest[at];
+          const int own = place_in(raw, line / phases);
+          if (raw.nearest[own] == kInf) continue;
+          depth += raw.nearest[own];
           // The virtual point (x, z): z = -m0 and slope x + z = m1.
-          outward += slope * (double{raw.slanted[at]} + raw.nearest[at]);
+          outward += slope * (double{raw.slanted[own]} + raw.nearest[own]);
           count += 1;
         }
         for (int phase = 0; phase < phases; ++phase) {
           const PrefixSums sums = buffer->sums(level, strip, phase);
-          ASSERT_EQ(sums.count[-PrefixSums::kPadding], 0);
-          ASSERT_EQ(sums.count[buffer->phase_lines() + PrefixSums::kPadding], count);
-          ASSERT_EQ(sums.depth[buffer->phase_lines() + PrefixSums::kPadding], depth);
+          const int last = sums.window.end + PrefixSums::kPadding;
+          ASSERT_EQ(sums.count[sums.window.begin - PrefixSums::kPadding], 0);
+          ASSERT_EQ(sums.count[last], count);
+          ASSERT_EQ(sums.depth[last], depth);
         }
       }
     }
@@ -344,7 +351,8 @@ TEST(Scan, SumsAreAsPreciseAsTheDepths) {
     nearest[i] = static_cast<float>(1000 + random.uniform());
     slanted[i] = -nearest[i] + static_cast<float>(100 * random.uniform());
   }
-  sum_lines(kLines, 1, 0, 1.0f, {.nearest = nearest.data(), .slanted = slanted.data()},
+  sum_lines(kLines, 1, 0, 1.0f,
+            {.nearest = nearest.data(), .slanted = slanted.data(), .window = {0, kLines}},
             {depth.data() + kPad, outward.data() + kPad, count.data() + kPad});
   double worst = 0, worst_outward = 0, worst_float = 0;
   float running = 0;
@@ -390,8 +398,9 @@ TEST(Scan, EveryTargetFindsTheSame) {
         for (int level = 0; level < buffer.levels(); ++level) {
           for (int strip = 0; strip < buffer.strips(level); ++strip) {
             const RawStrip raw = buffer.raw(level, strip, 0);
-            found.insert(found.end(), raw.nearest, raw.nearest + buffer.phase_lines());
-            found.insert(found.end(), raw.slanted, raw.slanted + buffer.phase_lines());
+            const auto& [begin, end] = raw.window;
+            found.insert(found.end(), raw.nearest + begin, raw.nearest + end);
+            found.insert(found.end(), raw.slanted + begin, raw.slanted + end);
           }
         }
       }

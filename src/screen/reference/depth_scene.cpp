@@ -9,6 +9,8 @@ namespace obscura {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
+// Narrow images are padded to at most so many cells, as a power of two.
+constexpr int kPaddedLogSize = 22;
 
 // Heights are 1/depth, or -depth of a parallel camera, whose background lies a thousand extents
 // behind the farthest surface.
@@ -46,6 +48,11 @@ void DepthScene::size_pyramids(int count) {
   };
   scene_.log_x = log_of(std::max(1, scene_.cells_x));
   scene_.log_y = log_of(std::max(1, scene_.cells_y));
+  // Blocks grow until they are as wide as the shorter side: that of a narrow image is taken as
+  // longer, or a ray would go along it in small steps.
+  int& shorter = scene_.log_x < scene_.log_y ? scene_.log_x : scene_.log_y;
+  const int longer = std::max(scene_.log_x, scene_.log_y);
+  while (shorter < longer - 2 && shorter + longer < kPaddedLogSize) ++shorter;
   scene_.top_level = std::min(scene_.log_x, scene_.log_y);
   const int log_size = scene_.log_x + scene_.log_y;
   pyramids_.resize(count);

@@ -19,7 +19,7 @@ struct AreaFrame {
 
   const MomentPyramid::Texel* texels = nullptr;
   int levels = 0;
-  int stride = 0;  // of level 0
+  int columns = 0;  // of level 0, from which each level's stride follows
   // Per level: where its texels start, and its kernel's deviation in pixels.
   std::int32_t start[kLevelTable] = {};
   float width[kLevelTable + 1] = {};

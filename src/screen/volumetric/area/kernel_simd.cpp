@@ -66,7 +66,7 @@ HWY_INLINE VT LookUp(const T* HWY_RESTRICT table, VI level) {
 // The pyramid as the kernel addresses it.
 struct Pyramid {
   HWY_INLINE explicit Pyramid(const AreaFrame& f)
-      : start(f.start), stride(hn::Set(DI(), f.stride)) {}
+      : start(f.start), last(hn::Set(DI(), f.columns - 1)) {}
 
   // The texel of `level` nearest to pixel (ix, iy), and the pixel at its centre. With jitter in
   // [-1/2, 1/2) of a texel, any of the four around, each as often as bilinear interpolation would
@@ -88,11 +88,13 @@ struct Pyramid {
     const VI tx = hn::Shr(hn::Add(ix, half), shift), ty = hn::Shr(hn::Add(iy, half), shift);
     *px = hn::Shl(tx, shift);
     *py = hn::Shl(ty, shift);
-    return hn::Add(hn::Add(LookUp<VI>(start, level), tx), hn::Mul(ty, hn::Shr(stride, shift)));
+    // MomentPyramid::row_stride.
+    const VI stride = hn::Add(hn::Shr(last, shift), hn::Set(di, 2));
+    return hn::Add(hn::Add(LookUp<VI>(start, level), tx), hn::Mul(ty, stride));
   }
 
   const std::int32_t* start;
-  VI stride;
+  VI last;  // column
 };
 
 // Which levels of the pyramid a vector's samples see.

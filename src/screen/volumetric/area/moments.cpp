@@ -12,11 +12,6 @@ namespace {
 constexpr int kMargin = 16;  // texels of share 0 beside a row; taps reach 8 far
 constexpr int kRowsPerTask = 8;
 
-int padded(int size, int levels) {
-  const int step = 1 << MomentPyramid::shift(levels - 1);
-  return (size + step - 1) / step * step;
-}
-
 }  // namespace
 
 int MomentPyramid::level_count(int width, int height) {
@@ -26,10 +21,7 @@ int MomentPyramid::level_count(int width, int height) {
   return levels;
 }
 
-bool MomentPyramid::fits(int width, int height) {
-  const int levels = level_count(width, height);
-  return static_cast<std::int64_t>(padded(width, levels)) * padded(height, levels) <= 1 << 28;
-}
+bool MomentPyramid::fits(int width, int height) { return std::int64_t{width} * height <= 1 << 28; }
 
 void MomentPyramid::Planes::resize(int width, int height) {
   share.resize(width, height);
@@ -41,9 +33,12 @@ void MomentPyramid::resize(int width, int height) {
   width_ = width;
   height_ = height;
   levels_ = level_count(width, height);
-  stride_ = padded(width, levels_);
-  area_ = static_cast<std::int64_t>(stride_) * padded(height, levels_);
-  texels_.resize(levels_ < kFullLevels ? levels_ * area_ : (kFullLevels + 1) * area_);
+  std::int64_t all = 0;
+  for (int level = 0; level < levels_; ++level) {
+    starts_[static_cast<std::size_t>(level)] = all;
+    all += std::int64_t{row_stride(width, level)} * (level_size(height, level) + 1);
+  }
+  texels_.resize(static_cast<std::size_t>(all));
   now_.resize(width, height);
   next_.resize(width, height);
   columns_.clear();
@@ -102,7 +97,7 @@ void MomentPyramid::pack_level(int level, Executor& executor) {
     for (int y = task * kRowsPerTask; y < end; ++y) {
       const MomentRow now = now_.row(y);
       Texel* out =
-          texels_.data() + start(level) + static_cast<std::int64_t>(y) * (stride_ >> shift(level));
+          texels_.data() + start(level) + static_cast<std::int64_t>(y) * row_stride(width_, level);
       if (last) {
         pack_moments(now, now, width, out);
         continue;

@@ -1,6 +1,7 @@
 #ifndef OBSCURA_SRC_SCREEN_VOLUMETRIC_AREA_MOMENTS_H_
 #define OBSCURA_SRC_SCREEN_VOLUMETRIC_AREA_MOMENTS_H_
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -40,15 +41,16 @@ class MomentPyramid {
   // Texels that a level has of `size` pixels.
   static int level_size(int size, int level) { return ((size - 1) >> shift(level)) + 1; }
 
-  // For depth images of this size. Whether `resize` would take it: at most 2^28 padded pixels.
+  // For depth images of this size. Whether `resize` would take it: at most 2^28 pixels.
   static bool fits(int width, int height);
   void resize(int width, int height);
 
   void build(const view::Geometry& geometry, Executor& executor);
 
+  int width() const { return width_; }
   int levels() const { return levels_; }
-  // Padded width of level 0 as a power of two's multiple; level l has stride() >> shift(l).
-  int stride() const { return stride_; }
+  // From one row of a level to the next. A spare texel ends each row, a spare row each level.
+  static int row_stride(int width, int level) { return level_size(width, level) + 1; }
   const Texel* texels() const { return texels_.data(); }
 
   // The deviation of level l's kernel, in pixels.
@@ -56,10 +58,7 @@ class MomentPyramid {
   // Level l keeps every 2^shift-th texel.
   static int shift(int level) { return level < kFullLevels ? 0 : level - kFullLevels + 1; }
   // Where level l starts.
-  std::int64_t start(int level) const {
-    return level < kFullLevels ? level * area_
-                               : (kFullLevels + 1) * area_ - (area_ >> (level - kFullLevels));
-  }
+  std::int64_t start(int level) const { return starts_[static_cast<std::size_t>(level)]; }
 
  private:
   struct Planes {
@@ -73,8 +72,8 @@ class MomentPyramid {
   // Goes on from level - 1, whose texels next_ has, to `level`.
   void advance_to(int level, Executor& executor);
 
-  int width_ = 0, height_ = 0, levels_ = 0, stride_ = 0;
-  std::int64_t area_ = 0;
+  int width_ = 0, height_ = 0, levels_ = 0;
+  std::array<std::int64_t, kMaxLevels> starts_{};
   std::vector<Texel> texels_;
   Planes now_, next_;            // a level, and the next one at the same texels
   Planes background_;            // one row of share 0

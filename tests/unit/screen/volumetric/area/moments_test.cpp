@@ -30,7 +30,7 @@ struct Moments {
 
 // With `next`, of the level above at the same place.
 Moments texel(const MomentPyramid& p, int level, int x, int y, bool next = false) {
-  const int stride = p.stride() >> MomentPyramid::shift(level);
+  const int stride = MomentPyramid::row_stride(p.width(), level);
   const auto& t = p.texels()[p.start(level) + static_cast<std::int64_t>(y) * stride + x];
   const std::uint32_t bits = t.deviation_and_share[next];
   return {t.mean[next], std::bit_cast<float>(bits & ~255u), (bits & 255) / 255.0};

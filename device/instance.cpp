@@ -71,6 +71,12 @@ Status make_instance(bool validate, std::vector<std::string>* messages, VkInstan
   if (result == VK_ERROR_LAYER_NOT_PRESENT) {
     return {StatusCode::kUnsupported, fmt::format("the layer {} is not installed", kValidation)};
   }
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
+    return {
+        StatusCode::kUnsupported,
+        "there is no Vulkan driver on this machine; install the graphics card's, or the package "
+        "mesa-vulkan-drivers"};
+  }
   if (result != VK_SUCCESS) return failed("vkCreateInstance", result);
   volkLoadInstance(*instance);
   return {};

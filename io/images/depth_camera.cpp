@@ -99,8 +99,9 @@ Status set_camera(const std::string& path, const DepthFileOptions& o, DepthInput
         "each other");
   }
   if (o.fov_y) {
-    if (!(*o.fov_y > 0 && *o.fov_y < 180)) {
-      return invalid_argument(fmt::format("fov-y is {}; it must be in (0, 180) degrees", *o.fov_y));
+    if (!(*o.fov_y >= 1e-4 && *o.fov_y <= 179.9)) {
+      return invalid_argument(
+          fmt::format("fov-y is {}; it must be in [0.0001, 179.9] degrees", *o.fov_y));
     }
     input->camera =
         Camera::perspective(static_cast<float>(*o.fov_y * std::numbers::pi / 180), w, h, g);

@@ -15,6 +15,10 @@
 namespace obscura {
 namespace {
 
+// A turned grid of cubes has at most so many voxels for each of the volume's, and some more for
+// small volumes: flat or long voxels fall into many cubes.
+constexpr double kMostTurned = 64, kFewVoxels = 1 << 24;
+
 // A grid turned so that its axis (1, 1, 1) points to the light, around the whole volume.
 Status sweep_turned(GridView<const float> distance, const Vec3& light,
                     const OcclusionSettings& settings, VisibilityField* field,
@@ -62,6 +66,18 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
       low[a] = std::min(low[a], u);
       high[a] = std::max(high[a], u);
     }
+  }
+  double turned_voxels = 1, voxels = 1;
+  for (int a = 0; a < 3; ++a) {
+    turned_voxels *= std::ceil((double{high[a]} - low[a]) / side) + 1;
+    voxels *= distance.size[a];
+  }
+  if (!(turned_voxels <= kMostTurned * voxels + kFewVoxels)) {
+    const auto& h = distance.spacing;
+    return unsupported(text("shadow: with a spacing of ", h[0], ", ", h[1], ", ", h[2],
+                            " a grid turned to the light has ", turned_voxels / voxels,
+                            " times as many voxels as the volume; at most ", kMostTurned,
+                            " are taken: resample it to spacings that are more alike"));
   }
   f.origin = low;
   for (int a = 0; a < 3; ++a) {

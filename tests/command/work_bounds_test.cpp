@@ -41,5 +41,45 @@ TEST_F(WorkBoundsTest, LongImages) {
   }
 }
 
+// Files that crashed, hung or filled the memory: each does what it should, or ends in one line.
+TEST_F(WorkBoundsTest, FilesThatAttacked) {
+  const std::string folder = std::string(OBSCURA_SOURCE_DIR) + "/../shared/data/faults/attack";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string(), file = entry.path().string();
+    std::string line = "ao '" + file + "' --fov-y 60 -q -o a.exr";
+    if (ending == ".vdb" || ending == ".nrrd") line = "volume '" + file + "' -q -o a.exr";
+    if (ending == ".raw") {
+      line = "volume '" + file +
+             "' --raw-size 10x10x10 --raw-spacing 1,1,200 --iso 60 --light shadow:0,0,-1 "
+             "--size 8x8 -q -o a.exr";
+    }
+    const CommandResult r = run(line, kLimits);
+    EXPECT_TRUE(r.code == 0 || r.code == 2 || r.code == 3) << line << "\n" << r.code << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), r.code != 0) << r.err;
+    EXPECT_LE(r.err.size(), 310u) << r.err;
+    for (const char c : r.err) EXPECT_TRUE((c >= ' ' && c < 127) || c == '\n') << r.err;
+  }
+}
+
+// Mutants of a kind: what a header promises is not there, or unfolds without end.
+TEST_F(WorkBoundsTest, HeadersThatPromiseTooMuch) {
+  auto refused = [&](const std::string& name, const std::string& bytes) {
+    write(name, bytes);
+    const CommandResult r = run("ao " + name + " --fov-y 60 -q -o a.exr", kLimits);
+    EXPECT_EQ(r.code, 3) << name << "\n" << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << name << r.err;
+  };
+  refused("deep.gltf", std::string(200000, '['));
+  std::string nest = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
+  for (int i = 1; i <= 60000; ++i) nest += "{\"children\":[" + std::to_string(i) + "]},";
+  refused("nest.gltf", nest + "{}]}");
+  refused("huge.pfm", "Pf\n60000 60000\n-1\n" + std::string(100, 'x'));
+  refused("huge.ply",
+          "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+          "property float y\nproperty float z\nend_header\n0 0 0\n");
+  refused("word.obj", "v 1 2 3\nf 1 2 999999999999\n");
+}
+
 }  // namespace
 }  // namespace obscura

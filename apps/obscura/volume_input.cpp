@@ -72,8 +72,8 @@ Status VolumeInputOptions::read_layout(std::optional<tools::RawLayout>* layout) 
       if (Status s = parse_setting("--raw-type", Field{}, type_, &raw->type); !s.ok()) return s;
     }
     if (!spacing_.empty() && !parse_three(spacing_, ',', false, raw->spacing.data())) {
-      return invalid_argument(
-          fmt::format("--raw-spacing is '{}'; it must be three numbers in [1e-12, 1e12]", spacing_));
+      return invalid_argument(fmt::format(
+          "--raw-spacing is '{}'; it must be three numbers in [1e-12, 1e12]", spacing_));
     }
     raw->big_endian = big_endian_;
   } else if (!type_.empty() || !spacing_.empty() || big_endian_) {

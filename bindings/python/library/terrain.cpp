@@ -27,17 +27,32 @@ const std::map<std::string, ImageView<float> TerrainOutputs::*>& quantities() {
   return all;
 }
 
-// Arrays of the model's size by the names of quantities; "horizon" is (azimuths, H, W).
+// Of a part of a larger model: that model's width and height, the column and row of the heights in
+// it, and x, y, width and height of what is wanted of them.
+using Tile = std::array<int, 8>;
+
+// Arrays of the size wanted by the names of quantities; "horizon" is (azimuths, H, W).
 void compute(const py::object& heights, double cell_width, double cell_height,
              std::optional<float> nodata, const GivenSettings& given, const NamedArrays& arrays,
-             int threads, const py::object& progress) {
+             std::optional<double> datum, const std::optional<Tile>& tile, int threads,
+             const py::object& progress) {
   ElevationModel model;
   model.heights = image("heights", heights);
   model.cell_width = cell_width;
   model.cell_height = cell_height;
   model.nodata = nodata;
   const auto settings = read_settings<TerrainSettings>("terrain", given);
-  const Extent size{model.heights.width, model.heights.height};
+  model.datum = datum;
+  Extent size{model.heights.width, model.heights.height};
+  if (tile) {
+    const Tile& t = *tile;
+    model.surround.width = t[0];
+    model.surround.height = t[1];
+    model.surround.column = t[2];
+    model.surround.row = t[3];
+    model.inner = {t[4], t[5], t[6], t[7]};
+    size = {t[6], t[7]};
+  }
   TerrainOutputs outputs;
   std::vector<ImageView<float>> bands;
   for (const auto& [name, array] : arrays) {

@@ -29,22 +29,28 @@ def _cell_size(heights, cell_size):
     return abs(steps[0]), abs(steps[1])
 
 
-def terrain(heights, *, cell_size=None, quantities=("svf",), nodata=None, threads=0, progress=None,
-            **settings):
+def terrain(heights, *, cell_size=None, quantities=("svf",), nodata=None, datum=None, threads=0,
+            progress=None, **settings):
+    return _terrain(heights, cell_size, quantities, nodata, datum, None, threads, progress, settings)
+
+
+def _terrain(heights, cell_size, quantities, nodata, datum, tile, threads, progress, settings):
+    """Of a part of a larger model: `tile` is that model's width and height, column and row of the
+    heights in it, and x, y, width, height of what is wanted of them."""
     texts = as_text("terrain", settings)
     names = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     if not names:
         raise ValueError("quantities is empty; name one, such as 'svf'")
     width, height = _cell_size(heights, cell_size)
     model = _array("heights", heights)
-    shape = np.shape(model)
+    shape = np.shape(model) if tile is None else (tile[7], tile[6])
     arrays = []
     for name in names:
         azimuths = int(settings.get("azimuths", settings_of("terrain")["azimuths"][2]))
         size = (max(azimuths, 1),) + shape if name == "horizon" else shape
         arrays.append((name, np.empty(size, np.float32)))
     _library.terrain(model, width, height, None if nodata is None else float(nodata), texts, arrays,
-                     threads, _progress(progress))
+                     None if datum is None else float(datum), tile, threads, _progress(progress))
     results = {}
     for name, array in arrays:
         labelled = hasattr(heights, "dims") and hasattr(heights, "copy") and array.ndim == 2
@@ -61,6 +67,7 @@ terrain.__doc__ = """Sky-view factor, openness and horizons of an elevation mode
     quantities: svf, svf_normal, svf_cosine in [0, 1]; openness, negative_openness in degrees;
         visible_sky in per cent; asvf; local_dominance; horizon, (azimuths, H, W) in degrees,
         clockwise from north. docs/terrain.md has the formulas.
+    datum: taken from the heights before they are rounded; None: the first height.
     threads: 0 for every processor. progress: a callable of the share done, or True.
 
     Returns the result, or a dict where several quantities are asked for.

@@ -3,6 +3,7 @@
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/volume_command.h"
+#include "apps/obscura/volume_stream.h"
 #include "fmt/format.h"
 #include "io/sequences/frame_names.h"
 #include "scene/volumes/procedural.h"
@@ -18,6 +19,7 @@ Status run_volume(const VolumeCommand& c, bool quiet) {
         "--fields {} has no place for the frame's number; write #### or %04d there", c.fields));
   }
   const auto executor = make_executor(c.threads);
+  if (!c.memory.empty()) return stream_volume(c, request, executor.get(), quiet);
   const std::string& output = c.output.empty() ? c.fields : c.output;
   return c.sequence.run(c.input, output, quiet, c.json, [&](const FrameFiles& files) {
     return make_volume_frame(c, request, executor.get(), quiet, files);
@@ -63,6 +65,12 @@ void add_volume(App& app) {
       ->add_option("--fields", c->fields,
                    "Write fields as floats, by the ending: .nrrd or .vdb; octants of the grid")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--memory", c->memory,
+          "Compute --fields within so much memory, such as 2G: slab by slab through files in "
+          "FILE.work. The same command goes on with a run that was ended")
+      ->type_name("SIZE");
   add_threads_option(command, &c->threads);
   command->add_flag("--half", c->half, "Write EXR channels as 16-bit floats");
   command->add_option("--json", c->json, "Write times and settings as JSON; - is standard output")

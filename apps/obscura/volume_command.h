@@ -75,7 +75,7 @@ void visit_fields(Self& s, Visitor&& v) {
 }
 
 struct VolumeCommand {
-  std::string input, output, outputs, light, fields, json;
+  std::string input, output, outputs, light, fields, json, memory;
   VolumeInputOptions volume;
   SequenceOptions sequence;
   OptionTable table;

@@ -82,6 +82,10 @@ Status VolumeInputOptions::read_layout(std::optional<tools::RawLayout>* layout) 
   return {};
 }
 
+std::string VolumeInputOptions::text() const {
+  return fmt::format("raw={},{},{},{}", size_, type_, spacing_, big_endian_);
+}
+
 Status VolumeInputOptions::open(const std::string& path, tools::PlaneFile* file) const {
   std::optional<tools::RawLayout> raw;
   if (Status s = read_layout(&raw); !s.ok()) return s;

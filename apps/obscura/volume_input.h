@@ -16,6 +16,8 @@ class VolumeInputOptions {
   Status load(const std::string& path, int threads, tools::VolumeImage* image) const;
   // For volumes that are read plane by plane: refuses what only whole ones have.
   Status open(const std::string& path, tools::PlaneFile* file) const;
+  // What was given, to tell runs apart.
+  std::string text() const;
 
  private:
   Status read_layout(std::optional<tools::RawLayout>* raw) const;

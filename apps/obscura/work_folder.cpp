@@ -23,7 +23,7 @@ Status open_work_folder(const std::string& folder, const std::string& input,
   if (Status s = tools::read_bytes(path, &other); !s.ok()) return s;
   if (other == text) return {};
   return invalid_argument(fmt::format(
-      "{} holds parts of another run (see {}); remove it or give another --output", folder, path));
+      "{} holds parts of another run (see {}); remove it or give another name", folder, path));
 }
 
 }  // namespace obscura::app

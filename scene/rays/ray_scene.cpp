@@ -1,6 +1,7 @@
 #include "scene/rays/ray_scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -125,8 +126,9 @@ Status RayScene::create(Mesh input, std::unique_ptr<RayScene>* scene, int thread
     attach(g, kSpheres);
   }
   // Embree works on TBB's threads; an arena says on how many. (The device's own limit would start
-  // a thread when it ends.)
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  // a thread when it ends.) TBB warns on stderr where an arena asks for more than there are.
+  const int there = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, there) : there);
   arena.execute([&] { rtcCommitScene(e.scene); });
   if (rtcGetDeviceError(e.device) != RTC_ERROR_NONE) {
     return {StatusCode::kOutOfMemory, "Embree could not prepare the mesh for rays"};

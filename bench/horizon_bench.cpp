@@ -19,6 +19,7 @@ void horizon_run(benchmark::State& state) {
   settings.falloff.kind = state.range(1) ? FalloffKind::kConstant : FalloffKind::kExponential;
   settings.falloff.radius = static_cast<float>(0.025 * input.scene_size);
   settings.directions = settings.steps = 8;
+  settings.occluder = state.range(4) ? Occluder::automatic() : Occluder::solid();
   settings.blur = state.range(2) != 0;
   const DepthField field = input.field();
   std::vector<float> result(static_cast<std::size_t>(width) * height);
@@ -48,12 +49,15 @@ void horizon_run(benchmark::State& state) {
 }
 BENCHMARK(horizon_run)
     ->Name("horizon")
-    ->ArgNames({"classic", "constant", "blur", "threads"})
-    ->Args({0, 0, 0, 1})
-    ->Args({0, 1, 0, 1})
-    ->Args({1, 1, 0, 1})
-    ->Args({0, 0, 0, 2})
-    ->Args({0, 0, 1, 2})
+    ->ArgNames({"classic", "constant", "blur", "threads", "auto"})
+    ->Args({0, 0, 0, 1, 0})
+    ->Args({0, 1, 0, 1, 0})
+    ->Args({1, 1, 0, 1, 0})
+    ->Args({0, 0, 0, 2, 0})
+    ->Args({0, 0, 1, 2, 0})
+    ->Args({0, 0, 0, 1, 1})
+    ->Args({0, 1, 0, 1, 1})
+    ->Args({0, 0, 1, 2, 1})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

@@ -66,7 +66,7 @@ std::vector<std::pair<const char*, MethodSettings>> methods(const Rendering& ren
   HemisphereSettings crytek3d;
   crytek3d.falloff = falloff;
   crytek3d.weighting = RayWeighting::kUniform;
-  HorizonSettings hbao;
+  HorizonSettings hbao{.occluder = Occluder::solid()};
   hbao.falloff = falloff;
   hbao.variant = HorizonVariant::kClassic;
   HorizonSettings slices = hbao;

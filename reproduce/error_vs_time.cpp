@@ -35,7 +35,7 @@ std::vector<Candidate> candidates(const FfaoView& view) {
   }
   for (const auto variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
     for (const auto& [k, steps] : {std::pair{4, 8}, std::pair{8, 16}, std::pair{16, 32}}) {
-      HorizonSettings s;
+      HorizonSettings s{.occluder = Occluder::solid()};
       s.falloff = view.falloff;
       s.variant = variant;
       s.directions = k;

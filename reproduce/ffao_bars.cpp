@@ -180,7 +180,7 @@ std::vector<MethodSettings> horizons(const FfaoView& view) {
   for (const HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
     for (const int k : {4, 8, 16, 32}) {
       for (const int steps : {4, 8, 16, 32, 64}) {
-        HorizonSettings s;
+        HorizonSettings s{.occluder = Occluder::solid()};
         s.falloff = view.falloff;
         s.variant = variant;
         s.directions = k;

@@ -37,7 +37,7 @@ std::vector<VoVariant> vo_variants(float radius) {
 }
 
 VoVariant vo_horizon(float radius) {
-  HorizonSettings s;
+  HorizonSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = radius;
   s.variant = HorizonVariant::kClassic;
   s.blur = false;

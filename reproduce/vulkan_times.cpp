@@ -69,11 +69,11 @@ Settings samples(int count, bool blur) {
 }
 
 std::vector<Row> volumetric_rows() {
-  HorizonSettings horizon;
+  HorizonSettings horizon{.occluder = Occluder::solid()};
   horizon.variant = HorizonVariant::kClassic;
   HemisphereSettings hemisphere;
   hemisphere.samples = 16;
-  HorizonSettings half;
+  HorizonSettings half{.occluder = Occluder::solid()};
   half.resolution = Resolution::kHalf;
   PointSettings screen = samples<PointSettings>(16, true);
   screen.pattern = PointPattern::kScreen;
@@ -86,7 +86,7 @@ std::vector<Row> volumetric_rows() {
           {"9 areas", samples<AreaSettings>(9, false)},
           {"horizon, classic, 8 x 8", horizon, false, 60.55, kQuadro},
           {"horizon, classic, 8 x 8, with directions", horizon, true},
-          {"horizon, slices, 8 x 8", HorizonSettings{}},
+          {"horizon, slices, 8 x 8", HorizonSettings{.occluder = Occluder::solid()}},
           {"horizon, slices, 8 x 8, half resolution", half},
           {"Crytek2D, 16 samples", screen},
           {"Crytek2D, 16 samples, with directions", screen, true},

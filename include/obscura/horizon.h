@@ -6,6 +6,7 @@
 #include "obscura/cone.h"
 #include "obscura/falloff.h"
 #include "obscura/far_field.h"
+#include "obscura/occluder.h"
 #include "obscura/resolution.h"
 
 namespace obscura {
@@ -29,9 +30,12 @@ struct EnumNames<HorizonVariant> {
 // occlusion", 2008) and its stronger relative: a few samples along each of K directions, which
 // m x m neighbouring pixels turn and shift by different parts of a direction and of a step. Both
 // give bent normals and cones, the slices also the cosine-weighted integral. Slices take any
-// falloff.
+// falloff and the occluders auto, solid, thickness and back-depth: where matter has an end, each
+// sample covers the sectors of the slice between its front and its back (Therrien, Levesque, Gilet,
+// "Screen space indirect lighting with visibility bitmask", 2023). Classic takes matter as solid.
 struct HorizonSettings {
   Falloff falloff{};
+  Occluder occluder = Occluder::automatic();
   HorizonVariant variant = HorizonVariant::kSlices;
   SlabProfile profile = SlabProfile::kAdaptiveChord;
   int directions = 8;
@@ -46,6 +50,10 @@ struct HorizonSettings {
 template <FieldsOf<HorizonSettings> Self, class Visitor>
 void visit_fields(Self& s, Visitor&& v) {
   visit_fields(s.falloff, v);
+  v(s.occluder, Field{"occluder",
+                      "world units",
+                      {},
+                      "With slices: how thick matter is assumed to be behind each depth sample."});
   v(s.variant,
     Field{"variant", "", {}, "Cosine-weighted slices, or the method as published (classic)."});
   v(s.profile, Field{"profile",

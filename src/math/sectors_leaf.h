@@ -27,6 +27,15 @@ struct MatterBox {
   Real depth, back;  // where the matter begins and ends along the view ray
 };
 
+// The corner of a box's end, on the view rays of its front that goes from `before` to `behind`.
+LEAF(void)
+end_box(LEAF_IN(Slice) s, Real before, Real behind, bool parallel, LEAF_INOUT(MatterBox) box) {
+  Real scale = parallel ? real(1.0f) : box.back * leaf_reciprocal(box.depth);
+  box.end_y =
+      parallel ? box.y - (box.back - box.depth) : leaf_fma(box.y - s.camera, scale, s.camera);
+  box.end_x = leaf_if_negative(box.end_y, before, behind) * scale;
+}
+
 // What a slice's matter has covered so far (math/matter_leaf.h).
 struct Sectors {
   Bits covered;

@@ -20,3 +20,19 @@ LEAF(Real) bend_to_camera(Real facing, Real a, Real b) {
 LEAF(Real) depth_of_thickness(Real thickness, Real a, Real b) {
   return thickness / length_of_ray(a, b);
 }
+
+const float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
+
+// The depth at which the matter of a texel ends whose ray is (a, b, 1): finite thickness is along
+// the view ray.
+LEAF(Real) back_of_thickness(Real depth, Real thickness, Real a, Real b, bool parallel) {
+  Real behind = parallel ? thickness : depth_of_thickness(thickness, a, b);
+  return leaf_min(depth + behind, real(kFarBack));
+}
+
+// Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
+// surface seen at a grazing angle.
+const float kJoinedPixels = 8.0f;
+LEAF(Real) slack_of_pixels(Real scale_u, Real scale_v) {
+  return real(kJoinedPixels) * leaf_max(scale_u, scale_v);
+}

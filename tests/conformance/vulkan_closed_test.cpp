@@ -24,7 +24,7 @@ TEST_F(VulkanClosed, PointsHaveOneDirectionAndOneAngle) {
   HemisphereSettings hemisphere;
   hemisphere.falloff = {.kind = FalloffKind::kConstant, .radius = 1};
   hemisphere.blur = false;
-  HorizonSettings horizon;
+  HorizonSettings horizon{.occluder = Occluder::solid()};
   horizon.falloff = falloff;
   horizon.blur = false;
   HorizonSettings classic = horizon;

@@ -8,7 +8,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 using VulkanHorizon = VulkanTest;
 
 HorizonSettings horizon(HorizonVariant variant = HorizonVariant::kSlices) {
-  HorizonSettings s;
+  HorizonSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = 0.7f;
   s.variant = variant;
   return s;
@@ -42,6 +42,42 @@ TEST_F(VulkanHorizon, SlicesAgreeForEveryFalloffAndProfile) {
           "kind " + std::to_string(int(falloff.kind)) + " profile " + std::to_string(int(profile));
       expect_same(in.field(), s, what);
       expect_same(in.field(), s, what + " directions", true);
+    }
+  }
+}
+
+TEST_F(VulkanHorizon, MatterAgreesForEveryOccluder) {
+  for (const bool orthographic : {false, true}) {
+    synthetic::Input in = scene(75, 56, 4, orthographic);
+    in.guard_band = GuardBand::symmetric(2, 1);
+    std::vector<float> back(in.depth.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      back[i] = in.depth[i] + 0.1f * static_cast<float>(i % 7) - 0.05f;
+      if (i % 11 == 0) back[i] = kInf;
+    }
+    DepthField field = in.field();
+    const auto same = [&](const std::string& what, const Occluder& occluder, FalloffKind kind) {
+      HorizonSettings s = horizon();
+      s.occluder = occluder;
+      s.falloff.kind = kind;
+      expect_same(field, s, what);
+      s.blur = false;
+      expect_same(field, s, what + " without blur");
+      s.resolution = Resolution::kHalf;
+      expect_same(field, s, what + " half");
+      // A sector more or less turns directions by more than it changes what is seen.
+      s = horizon();
+      s.occluder = occluder;
+      s.directions = 64;
+      expect_same(field, s, what + " directions", true);
+    };
+    for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
+      same("thickness", Occluder::of_thickness(0.3f), kind);
+      same("endless", Occluder::of_thickness(1e30f), kind);
+      same("as thick as wide", Occluder::automatic(), kind);
+      field.back_depth = {back.data(), 75, 56};
+      same("back depth", Occluder::back_depth(), kind);
+      field.back_depth = {};
     }
   }
 }

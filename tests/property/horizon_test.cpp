@@ -34,7 +34,7 @@ std::vector<float> visibility(const synthetic::Input& in, const MethodSettings& 
 }
 
 HorizonSettings dense() {
-  HorizonSettings s;
+  HorizonSettings s{.occluder = Occluder::solid()};
   s.directions = 32;
   s.steps = 64;
   s.interleave = 1;
@@ -70,7 +70,7 @@ TEST(Horizon, PlanesAreOpenAtAnyTilt) {
           synthetic::plane(90, 60, camera, std::sin(tilt) * std::cos(turn),
                            std::sin(tilt) * std::sin(turn), std::cos(tilt), 5);
       for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
-        HorizonSettings s;
+        HorizonSettings s{.occluder = Occluder::solid()};
         s.variant = variant;
         s.falloff = {.kind = kind, .radius = 10};
         s.angle_bias = 0;
@@ -171,7 +171,7 @@ TEST(Horizon, MoreSamplesComeCloserToTheTruth) {
 TEST(Horizon, BitsDoNotDependOnThreads) {
   const synthetic::Input in = synthetic::blocks(130, 90, Camera::perspective(1.2f, 130, 90), 7);
   for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
-    HorizonSettings s;
+    HorizonSettings s{.occluder = Occluder::solid()};
     s.variant = variant;
     const std::vector<float> one = visibility(in, s, 1), three = visibility(in, s, 3);
     EXPECT_EQ(std::memcmp(one.data(), three.data(), one.size() * sizeof(float)), 0);
@@ -189,7 +189,7 @@ TEST(Horizon, ExtremesHaveDefinedValues) {
         for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
           for (float radius : {1e-6f, 1.0f, 1e6f}) {
             for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
-              HorizonSettings s;
+              HorizonSettings s{.occluder = Occluder::solid()};
               s.variant = variant;
               s.falloff = {.kind = kind, .radius = radius};
               for (float v : visibility(in, s)) EXPECT_TRUE(v >= 0 && v <= 1);
@@ -209,7 +209,7 @@ TEST(Horizon, BackgroundIsOpenAndDoesNotOcclude) {
     }
   }
   for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
-    HorizonSettings s;
+    HorizonSettings s{.occluder = Occluder::solid()};
     s.variant = variant;
     s.falloff.radius = 10;
     const std::vector<float> v = visibility(in, s);
@@ -260,7 +260,7 @@ TEST(HorizonDirections, OpenPlanesLookAlongTheirNormals) {
       const Camera camera =
           orthographic ? Camera::orthographic_height(4, 90, 70) : Camera::perspective(1, 90, 70);
       const synthetic::Input in = synthetic::plane(90, 70, camera, 0.48, 0.36, 0.8, 10);
-      HorizonSettings s;
+      HorizonSettings s{.occluder = Occluder::solid()};
       s.variant = variant;
       const Directions r = directions(in, s, variant == HorizonVariant::kSlices);
       for (std::size_t i = 0; i < in.depth.size(); ++i) {
@@ -278,7 +278,7 @@ TEST(HorizonDirections, OpenPlanesLookAlongTheirNormals) {
 TEST(HorizonDirections, UniformIntegralCarriesTheVisibility) {
   const synthetic::Input in = synthetic::blocks(120, 80, Camera::perspective(1, 120, 80), 3);
   for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kExponential}) {
-    HorizonSettings s;
+    HorizonSettings s{.occluder = Occluder::solid()};
     s.falloff = {.kind = kind, .radius = 0.5f};
     const Directions r = directions(in, s);
     EXPECT_LT(mean_difference(visibility(in, s), r.visibility), 1e-5);
@@ -327,7 +327,7 @@ TEST(HorizonDirections, BesideAWallHalfIsOpen) {
 
 TEST(Horizon, RefusesWrongSettings) {
   auto refused = [](auto change) {
-    HorizonSettings s;
+    HorizonSettings s{.occluder = Occluder::solid()};
     change(s);
     Estimator e;
     return !Estimator::create(s, 8, 8, &e).ok();

@@ -16,11 +16,8 @@ matter_box(LEAF_IN(Part) p, Real rows, Real first, Real last, Real depth, Real b
   box.last_row = last;
   box.depth = depth;
   box.back = back;
-  Real scale = parallel ? real(1.0f) : back * leaf_reciprocal(depth);
-  Real camera = p.slice.camera;
-  box.end_y = parallel ? box.y - (back - depth) : leaf_fma(box.y - camera, scale, camera);
   Real before = leaf_max(part_x(p, first * unit) - box.reach, real(0.0f));
   Real behind = part_x(p, last * unit) + box.reach;
-  box.end_x = leaf_if_negative(box.end_y, before, behind) * scale;
+  end_box(p.slice, before, behind, parallel, box);
   return box;
 }

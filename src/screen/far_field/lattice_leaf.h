@@ -2,14 +2,6 @@
 // it is included once per SIMD target. What passes know of the depth image (plane.h).
 
 const float kSmallest = 1e-30f;
-const float kFarBack = 1e12f;  // matter without end, finite so that arithmetic is
-
-// Neighbours whose matter is this many pixels' footprints of depth apart still belong together: a
-// surface seen at a grazing angle.
-const float kJoinedPixels = 8.0f;
-LEAF(Real) slack_of_pixels(Real scale_u, Real scale_v) {
-  return real(kJoinedPixels) * leaf_max(scale_u, scale_v);
-}
 
 // Rows less than this apart are next to each other.
 const float kNextRow = 1.5f;
@@ -26,13 +18,6 @@ LEAF(Real) depth_of_lattice(Real g, Real ortho_offset, bool parallel) {
 // The same to the last bits but one.
 LEAF(Real) near_depth_of_lattice(Real g, Real ortho_offset, bool parallel) {
   return parallel ? ortho_offset - g : leaf_reciprocal(g);
-}
-
-// The depth at which the matter of a texel ends whose ray is (a, b, 1): finite thickness is along
-// the view ray.
-LEAF(Real) back_of_thickness(Real depth, Real thickness, Real a, Real b, bool parallel) {
-  Real behind = parallel ? thickness : depth_of_thickness(thickness, a, b);
-  return leaf_min(depth + behind, real(kFarBack));
 }
 
 // Between texel values a and b.

@@ -33,7 +33,12 @@ Status make_program(const HorizonSettings& settings, const Frame& frame, Program
   const Demands demands{.method = "horizon", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool classic = settings.variant == HorizonVariant::kClassic;
+  if (settings.occluder.kind == OccluderKind::kBackDepth && !frame.shape.back_depth) {
+    return invalid_argument("the occluder is back-depth, but the shape has no image of it");
+  }
   const Geometry g = add_geometry(frame, true, program);
+  const int back =
+      f.matter == horizon::Matter::kWithBack ? add_back_depth(frame, g, program) : g.depth;
   program->add_table(tables_of(f, rho));
   const SumRegions sums = add_sums(frame, !frame.directions(), frame.directions(), program);
   const SliceSums kind = frame.directions() ? SliceSums::kUniform : SliceSums::kVisibility;
@@ -45,14 +50,17 @@ Status make_program(const HorizonSettings& settings, const Frame& frame, Program
                               {io::kClassic, classic},
                               {io::kFalloff, static_cast<int>(rho.kind)},
                               {io::kChord, f.chord},
-                              {io::kSums, static_cast<int>(kind)}},
+                              {io::kSums, static_cast<int>(kind)},
+                              {io::kMatter, static_cast<int>(f.matter)}},
                 .slots = {{io::kDepthAt, g.depth},
                           {io::kNormalsAt, g.normals},
                           {io::kTablesAt, program->table_region},
                           {io::kOpenAt, sums.any()},
-                          {io::kDirectionsAt, sums.any()}},
+                          {io::kDirectionsAt, sums.any()},
+                          {io::kBackAt, back}},
                 .size = frame.visible(),
                 .radius = f.reach,
+                .thickness = f.thickness,
                 .push = push_words(io::Push{.rho_radius = rho.radius,
                                             .inverse_radius = rho.inverse_radius,
                                             .entries_per_length = rho.entries_per_length,

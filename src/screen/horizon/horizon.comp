@@ -6,7 +6,10 @@
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "math/slice_leaf.h"
+#include "math/sectors_leaf.h"
+#include "view/taps_leaf.h"
 #include "screen/horizon/lines_leaf.h"
+#include "screen/horizon/box_leaf.h"
 #include "screen/horizon/horizon_io.h"
 #include "gpu/view.glsl"
 
@@ -14,6 +17,7 @@ float rho_table(int i) { return tables[3 * (kDirections + kInterleave * kInterle
 
 #include "gpu/rho.glsl"
 #include "math/horizon_leaf.h"
+#include "math/matter_leaf.h"
 #include "screen/horizon/slices_leaf.h"
 
 LineReceiver receiver_at(ivec2 at, float z, vec3 n) {
@@ -24,13 +28,59 @@ LineReceiver receiver_at(ivec2 at, float z, vec3 n) {
   return make_line_receiver(float(at.x), float(at.y), z, n.x, n.y, n.z, ray.x, ray.y, parallel);
 }
 
-LinePoint point_at(LineReceiver r, ImageLine line, float shift, int j) {
-  const float pixels = sample_at(line, shift, float(j), 1.0 / float(kSteps), !kClassic);
+// A sample's texel: its place, how far it is from the receiver in pixels times the size of a pixel,
+// and along the line in pixels.
+struct Texel {
+  int index;
+  vec2 k;
+  float pixels;
+};
+Texel texel_at(LineReceiver r, ImageLine line, float shift, int j) {
+  Texel t;
+  t.pixels = sample_at(line, shift, float(j), 1.0 / float(kSteps), !kClassic);
   const vec2 at = vec2(r.u, r.v), size = vec2(view.width, view.height);
-  const vec2 texel = clamp(at + roundEven(pixels * vec2(line.du, line.dv)), vec2(0.0), size - 1.0);
-  const vec2 k = (texel - at) * vec2(view.scale_x, view.scale_y);
-  const float q = depth[int(texel.y) * view.width + int(texel.x)];
-  return line_point(r, line, k.x, k.y, q, view.orthographic != 0);
+  const vec2 texel =
+      clamp(at + roundEven(t.pixels * vec2(line.du, line.dv)), vec2(0.0), size - 1.0);
+  t.index = int(texel.y) * view.width + int(texel.x);
+  t.k = (texel - at) * vec2(view.scale_x, view.scale_y);
+  return t;
+}
+LinePoint point_of(LineReceiver r, ImageLine line, Texel t) {
+  return line_point(r, line, t.k.x, t.k.y, depth[t.index], view.orthographic != 0);
+}
+LinePoint point_at(LineReceiver r, ImageLine line, float shift, int j) {
+  return point_of(r, line, texel_at(r, line, shift, j));
+}
+
+// Where the matter of a texel ends that begins at `front` on the ray (a, b, 1).
+float back_of(float front, int index, vec2 ray) {
+  if (kMatter == kOfThickness) {
+    return back_of_thickness(front, view.thickness, ray.x, ray.y, view.orthographic != 0);
+  }
+  return max(min(backs[index], kFarBack), front);
+}
+
+Obscured matter_slice(LineReceiver r, ImageLine line, Slice s, float shift, float own) {
+  const bool parallel = view.orthographic != 0;
+  const float footprint = max(view.scale_x, view.scale_y);
+  Sectors m = start_sectors(s, true, r.z, own);
+  float before = 0.0;
+  for (int j = 0; j < kSteps; ++j) {
+    const Texel t = texel_at(r, line, shift, j);
+    const LinePoint p = point_of(r, line, t);
+    const float between = t.pixels - before;
+    before = t.pixels;
+    if (!p.valid) {
+      m.joined = false;
+      continue;
+    }
+    const float front = depth[t.index];
+    const float back = back_of(front, t.index, vec2(r.a, r.b) + t.k);
+    const MatterBox box = line_box(s, p, t.pixels, between, front, back, parallel);
+    const float slack = slack_of_samples(parallel ? footprint : footprint * front, between);
+    add_matter(s, box, true, slack, shift - 0.5, true, m);
+  }
+  return finish_sectors(m);
 }
 
 Obscured constant_slice(LineReceiver r, ImageLine line, Slice s, float shift) {
@@ -73,6 +123,8 @@ void main() {
   const float camera = view.orthographic != 0 ? 1.0 : r.z * r.ray_length;
   const ivec2 place = pattern_place(p) % kInterleave;
   const int tile = 3 * (kDirections + place.y * kInterleave + place.x);
+  float own = r.z;
+  if (kMatter != kSolid && z < kInf) own = back_of(r.z, at.y * view.width + at.x, vec2(r.a, r.b));
   const vec2 tile_turn = vec2(tables[tile], tables[tile + 1]);
   ObscuredSums sum = nothing_obscured();
   for (int k = 0; z < kInf && k < kDirections; ++k) {
@@ -88,7 +140,9 @@ void main() {
       obscured = classic_slice(r, line, shift);
     } else {
       const Slice s = make_slice(r.nz, line.nt, camera, perspective);
-      if (kFalloff == kConstantRho) {
+      if (kMatter != kSolid) {
+        obscured = matter_slice(r, line, s, shift, own);
+      } else if (kFalloff == kConstantRho) {
         obscured = constant_slice(r, line, s, shift);
       } else {
         obscured = falling_slice(r, line, s, shift);

@@ -12,13 +12,18 @@ IO_CONSTANT(2, int, kInterleave, 4);
 IO_CONSTANT(3, bool, kClassic, false);
 IO_CONSTANT(4, int, kFalloff, 1);  // FalloffKind
 IO_CONSTANT(5, bool, kChord, true);
-IO_CONSTANT(6, int, kSums, 0);  // SliceSums
+IO_CONSTANT(6, int, kSums, 0);    // SliceSums
+IO_CONSTANT(7, int, kMatter, 0);  // horizon::Matter
+IO_NUMBER(kSolid, 0);
+IO_NUMBER(kOfThickness, 1);
+IO_NUMBER(kWithBack, 2);
 IO_READS(0, Depth, float, depth);
 IO_READS(1, Normals, vec4, normals);
 // Per direction cosine, sine and shift; the same per pixel of the tile; rho's table.
 IO_READS(2, Tables, float, tables);
 IO_WRITES(3, Open, float, open_sums);  // without directions the open share alone
 IO_WRITES(4, Directions, vec4, sums);
+IO_READS(5, Back, float, backs);  // of kWithBack
 IO_PUSH(OBSCURA_RHO_WORDS float bias_sine; float bias_cosine;);
 IO_END
 

@@ -23,8 +23,14 @@ enum TileValue {
   kTileValues
 };
 
+// Where the matter of a sample ends.
+enum class Matter { kSolid, kThickness, kWithBack };
+
 struct Frame {
   view::TapFrame view;
+  Matter matter = Matter::kSolid;
+  float thickness = 0;          // of kThickness, along the view ray
+  const float* back = nullptr;  // of kWithBack, like view.depth
   const math::Rho* rho = nullptr;
   float reach = 0;  // world units; samples end there
   int directions = 0, steps = 0, interleave = 1;

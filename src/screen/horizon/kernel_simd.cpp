@@ -14,6 +14,8 @@ namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
 #include "screen/horizon/lines_leaf.h"
+// After lines_leaf.h.
+#include "screen/horizon/box_leaf.h"
 // The shader's specialization constants are the class's parameters.
 template <FalloffKind kKind, bool kChord, SliceSums kSliceSums>
 struct LineSlices : SliceIntegral<kKind, kChord, kSliceSums> {
@@ -82,10 +84,19 @@ HWY_INLINE Turn MakeTurn(const Frame& f, int row, int i, int k) {
           hn::Sub(shift, hn::Floor(shift))};
 }
 
-// The surface points at the samples along a line, one after the other, for add(point). Their texels
-// are found a batch at a time, so that no load waits for the index that was stored just before it.
+// A sample's texel: its place among all, its depth, how many pixels away, on a line and from the
+// receiver, and how many farther than the sample before.
+struct Texel {
+  const std::int32_t* index;
+  V depth, ku, kv;
+  V pixels, between;  // of kLengths only
+};
+
+// The surface points at the samples along a line, one after the other, for add(point, texel). Their
+// texels are found a batch at a time, so that no load waits for the index that was stored just
+// before it.
 constexpr int kBatch = 8;
-template <bool kSquared, class Add>
+template <bool kSquared, bool kLengths, class Add>
 HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine& line, V shift,
                           Add add) {
   const D d;
@@ -99,6 +110,8 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
   const VI middle = hn::Set(di, f.view.height / 2);  // rows count from there, as taps' do
   HWY_ALIGN std::int32_t index[kBatch][kMaxLanes];
   HWY_ALIGN float offset[2][kBatch][kMaxLanes];
+  HWY_ALIGN float lengths[2][kBatch][kMaxLanes];
+  V before = zero;
   for (int first = 0; first < f.steps; first += kBatch) {
     const int count = std::min(kBatch, f.steps - first);
     for (int j = 0; j < count; ++j) {
@@ -112,11 +125,21 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
       hn::Store(hn::Add(hn::Mul(row, stride), hn::ConvertTo(di, x)), di, index[j]);
       hn::Store(hn::Mul(hn::Sub(x, r.u), scale_u), d, offset[0][j]);
       hn::Store(hn::Mul(hn::Sub(y, r.v), scale_v), d, offset[1][j]);
+      if constexpr (kLengths) {
+        hn::Store(pixels, d, lengths[0][j]);
+        hn::Store(hn::Sub(pixels, before), d, lengths[1][j]);
+        before = pixels;
+      }
     }
     for (int j = 0; j < count; ++j) {
       const V q = om::GatherLanes(d, Base(f.view), index[j]);
       const V ku = hn::Load(d, offset[0][j]), kv = hn::Load(d, offset[1][j]);
-      add(leaf::line_point(r, line, ku, kv, q, c.orthographic));
+      Texel texel{index[j], q, ku, kv, zero, zero};
+      if constexpr (kLengths) {
+        texel.pixels = hn::Load(d, lengths[0][j]);
+        texel.between = hn::Load(d, lengths[1][j]);
+      }
+      add(leaf::line_point(r, line, ku, kv, q, c.orthographic), texel);
     }
   }
 }
@@ -138,7 +161,7 @@ HWY_INLINE leaf::Obscured SliceOf(const Frame& f, const LineReceiver& r, const I
   if constexpr (kKind == FalloffKind::kConstant) {
     const V radius = hn::Set(d, f.rho->radius), inverse_radius = hn::Set(d, f.rho->inverse_radius);
     V cosine = slice.edge_cosine;
-    ForPoints<true>(f, r, line, shift, [&](const LinePoint& p) HWY_ATTR {
+    ForPoints<true, false>(f, r, line, shift, [&](const LinePoint& p, const Texel&) HWY_ATTR {
       const V c = leaf::cut_cosine(slice, p.x, p.y, radius, inverse_radius);
       cosine = hn::IfThenElse(p.valid, hn::Max(cosine, c), cosine);
     });
@@ -146,14 +169,52 @@ HWY_INLINE leaf::Obscured SliceOf(const Frame& f, const LineReceiver& r, const I
   } else {
     leaf::Horizon h = slices.start_horizon(slice, true);
     const V one = hn::Set(d, 1.0f);
-    ForPoints<true>(f, r, line, shift, [&](const LinePoint& p) HWY_ATTR {
+    ForPoints<true, false>(f, r, line, shift, [&](const LinePoint& p, const Texel&) HWY_ATTR {
       slices.add_point(slice, p.x, p.y, p.valid, false, one, h);
     });
     return slices.finish_falling(h);
   }
 }
 
-template <FalloffKind kKind, bool kChord, SliceSums kSums>
+// Where the matter of texels ends that begins at `depth`: a thickness behind, or at `given`.
+HWY_INLINE V BackOf(const Frame& f, V depth, V given, V a, V b) {
+  const D d;
+  if (f.matter == Matter::kThickness) {
+    return leaf::back_of_thickness(depth, hn::Set(d, f.thickness), a, b,
+                                   f.view.camera.orthographic);
+  }
+  return hn::Max(hn::Min(given, hn::Set(d, leaf::kFarBack)), depth);
+}
+
+// The same where matter has an end; `own` is where the receiver's does.
+template <FalloffKind kKind, SliceSums kSums>
+HWY_INLINE leaf::Obscured MatterSliceOf(const Frame& f, const LineReceiver& r,
+                                        const ImageLine& line, V shift, const leaf::Slice& slice,
+                                        V own) {
+  const D d;
+  const Camera& c = f.view.camera;
+  const bool parallel = c.orthographic;
+  const V one = hn::Set(d, 1.0f);
+  const V footprint = hn::Set(d, std::max(c.scale_x, c.scale_y));
+  const V dither = hn::Sub(shift, hn::Set(d, 0.5f));
+  const float* backs = f.back ? f.back + (f.view.height / 2) * f.view.stride : nullptr;
+  leaf::SliceIntegral<kKind, true, kSums> slices(*f.rho);
+  leaf::Sectors m = leaf::start_sectors(slice, true, r.z, own);
+  auto add = [&](const LinePoint& p, const Texel& t) HWY_ATTR {
+    const V depth = hn::IfThenElse(p.valid, t.depth, one);
+    const V given = backs ? om::GatherLanes(d, backs, t.index) : depth;
+    const V back = BackOf(f, depth, given, hn::Add(r.a, t.ku), hn::Add(r.b, t.kv));
+    const leaf::MatterBox box =
+        leaf::line_box(slice, p, t.pixels, t.between, depth, back, parallel);
+    const V slack =
+        leaf::slack_of_samples(parallel ? footprint : hn::Mul(footprint, depth), t.between);
+    slices.add_matter(slice, box, leaf::leaf_truth(true), slack, dither, p.valid, m);
+  };
+  ForPoints<true, true>(f, r, line, shift, add);
+  return leaf::finish_sectors(m);
+}
+
+template <FalloffKind kKind, bool kChord, bool kMatter, SliceSums kSums>
 void Slices(const Frame& f, int row, int width, Rows out) {
   const D d;
   const RowLoader loader(f.view, row, width);
@@ -163,12 +224,21 @@ void Slices(const Frame& f, int row, int width, Rows out) {
   for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
     const LineReceiver r = MakeReceiver(f, loader, i, loader.Depth(i));
     const V camera = orthographic ? one : hn::Mul(r.z, r.ray_length);
+    V own = one;
+    if constexpr (kMatter) {
+      own = BackOf(f, r.z, f.back ? hn::LoadU(d, f.back + loader.at + i) : r.z, r.a, r.b);
+    }
     ObscuredSums sum = leaf::nothing_obscured();
     for (int k = 0; k < f.directions; ++k) {
       const Turn turn = MakeTurn(f, row, i, k);
       const ImageLine line = MakeLine(f, r, turn.cosine, turn.sine);
       const leaf::Slice slice = leaf::make_slice(r.nz, line.nt, camera, perspective);
-      const leaf::Obscured o = SliceOf<kKind, kChord, kSums>(f, r, line, turn.shift, slice);
+      leaf::Obscured o;
+      if constexpr (kMatter) {
+        o = MatterSliceOf<kKind, kSums>(f, r, line, turn.shift, slice, own);
+      } else {
+        o = SliceOf<kKind, kChord, kSums>(f, r, line, turn.shift, slice);
+      }
       leaf::add_obscured(o, turn.cosine, turn.sine, kSums != SliceSums::kVisibility, sum);
     }
     // w_k = 2 pi / K.
@@ -187,10 +257,12 @@ void Slices(const Frame& f, int row, int width, Rows out) {
 template <SliceSums kSums>
 void SlicesOf(const Frame& f, int row, int width, Rows out) {
   math::with_falloff_kind(f.rho->kind, [&]<FalloffKind kKind>() {
-    if (kKind == FalloffKind::kConstant || !f.chord) {
-      Slices<kKind, false, kSums>(f, row, width, out);
+    if (f.matter != Matter::kSolid) {
+      Slices<kKind, false, true, kSums>(f, row, width, out);
+    } else if (kKind == FalloffKind::kConstant || !f.chord) {
+      Slices<kKind, false, false, kSums>(f, row, width, out);
     } else {
-      Slices<kKind, kKind != FalloffKind::kConstant, kSums>(f, row, width, out);
+      Slices<kKind, kKind != FalloffKind::kConstant, false, kSums>(f, row, width, out);
     }
   });
 }
@@ -221,8 +293,9 @@ void Classic(const Frame& f, int row, int width, Rows out) {
       const ImageLine line = MakeLine(f, r, turn.cosine, turn.sine);
       leaf::ClassicHorizon h =
           leaf::start_classic(r, line, hn::Set(d, f.bias_sine), hn::Set(d, f.bias_cosine));
-      ForPoints<false>(f, r, line, turn.shift,
-                       [&](const LinePoint& p) HWY_ATTR { leaf::add_classic(p, inverse, h); });
+      auto add = [&](const LinePoint& p, const Texel&)
+                     HWY_ATTR { leaf::add_classic(p, inverse, h); };
+      ForPoints<false, false>(f, r, line, turn.shift, add);
       leaf::add_obscured(leaf::finish_classic(h), turn.cosine, turn.sine, kDirections, sum);
     }
     hn::StoreU(hn::NegMulAdd(sum.solid, each, one), d, out[0] + i);

@@ -56,7 +56,15 @@ void set_pattern(const HorizonSettings& s, horizon::Frame* f) {
 Status make_plan(const HorizonSettings& settings, HorizonPlan* plan) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
   if (Status s = validate(settings.falloff); !s.ok()) return s;
+  if (Status s = validate(settings.occluder); !s.ok()) return s;
+  const OccluderKind occluder = settings.occluder.kind;
+  if (occluder == OccluderKind::kLayers) {
+    return unsupported("horizon takes the occluders auto, solid, thickness and back-depth");
+  }
   const bool classic = settings.variant == HorizonVariant::kClassic;
+  if (classic && occluder != OccluderKind::kSolid && occluder != OccluderKind::kAuto) {
+    return unsupported("the classic horizon method takes matter as solid: occluder solid or auto");
+  }
   if (classic && !std::isfinite(settings.falloff.radius)) {
     return invalid_argument("radius is inf; the classic horizon method needs a finite one");
   }
@@ -64,6 +72,10 @@ Status make_plan(const HorizonSettings& settings, HorizonPlan* plan) {
   horizon::Frame& f = plan->frame;
   f.reach = classic ? settings.falloff.radius : reach_of(plan->rho);
   f.chord = settings.profile == SlabProfile::kAdaptiveChord;
+  f.matter = classic || occluder == OccluderKind::kSolid ? horizon::Matter::kSolid
+             : occluder == OccluderKind::kThickness      ? horizon::Matter::kThickness
+                                                         : horizon::Matter::kWithBack;
+  f.thickness = settings.occluder.thickness;
   f.directions = settings.directions;
   f.steps = settings.steps;
   f.interleave = settings.interleave;

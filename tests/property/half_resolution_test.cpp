@@ -31,7 +31,7 @@ Result run(const DepthField& field, const MethodSettings& settings, bool directi
 }
 
 HorizonSettings horizon(Resolution resolution) {
-  HorizonSettings s;
+  HorizonSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = 1;
   s.resolution = resolution;
   return s;

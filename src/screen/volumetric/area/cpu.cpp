@@ -25,7 +25,7 @@ class AreaMethod final : public Method {
     f.view.noise_y = noise_.y();
     f.texels = pyramid_.texels();
     f.levels = pyramid_.levels();
-    f.columns = g.width;
+    f.columns = pyramid_.width();
     for (int l = 0; l < f.levels; ++l) {
       f.start[l] = static_cast<std::int32_t>(pyramid_.start(l));
     }

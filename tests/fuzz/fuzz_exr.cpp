@@ -1,45 +1,16 @@
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <cstdlib>
-#include <string>
 
 #include "io/images/depth_file.h"
 #include "io/images/describe.h"
+#include "tests/fuzz/memory_file.h"
 
 using namespace obscura;
-
-namespace {
-
-// A file in memory, by the name that the loader opens.
-class MemoryFile {
- public:
-  MemoryFile(const std::uint8_t* data, std::size_t size) : file_(memfd_create("fuzz", 0)) {
-    if (file_ < 0 || write(file_, data, size) != static_cast<ssize_t>(size)) std::abort();
-    // Formats are told apart by the ending, which a link can have.
-    path_ = "/tmp/obscura-fuzz-" + std::to_string(getpid()) + ".exr";
-    unlink(path_.c_str());
-    const std::string target = "/proc/self/fd/" + std::to_string(file_);
-    if (symlink(target.c_str(), path_.c_str()) != 0) std::abort();
-  }
-  ~MemoryFile() {
-    unlink(path_.c_str());
-    close(file_);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  int file_;
-  std::string path_;
-};
-
-}  // namespace
 
 // What is loaded has the size that it says.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const MemoryFile file(data, size);
+  const fuzz::MemoryFile file(data, size, ".exr");
   tools::DepthFileOptions options;
   options.fov_y = 60;
   options.normal_space = size % 2 ? tools::NormalSpace::kWorld : tools::NormalSpace::kView;

@@ -130,10 +130,10 @@ class VolumeStream {
     ScratchFile distances, out;
     if (Status s = distances.open(path(newest())); !s.ok()) return s;
     if (Status s = out.create(path("fallen.u8")); !s.ok()) return s;
-    OcclusionBlock block;
+    OcclusionBlock& block = block_;
     std::vector<std::int16_t> face;
     for (std::size_t i = slabs_.size(); i-- > 0;) {
-      if (Status s = start(distances, slabs_[i], &block); !s.ok()) return s;
+      if (Status s = start(distances, slabs_[i]); !s.ok()) return s;
       std::span<const std::int16_t> up;
       if (i + 1 < slabs_.size()) up = face;
       face.resize(block.face_size());
@@ -155,15 +155,14 @@ class VolumeStream {
     if (Status s = light ? fallen.open(path("fallen.u8")) : Status(); !s.ok()) return s;
     if (Status s = out.create(path("field.nrrd")); !s.ok()) return s;
     std::vector<std::int16_t> face;
+    std::vector<float> values;
     std::int64_t end = 0;
     for (std::size_t i = 0; i < slabs_.size(); ++i) {
-      OcclusionBlock block;
-      std::vector<float> values;
       if (light) {
-        if (Status s = start(distances, slabs_[i], &block); !s.ok()) return s;
-        if (Status s = sweep_up(i, fallen, &block, &face); !s.ok()) return s;
+        if (Status s = start(distances, slabs_[i]); !s.ok()) return s;
+        if (Status s = sweep_up(i, fallen, &face); !s.ok()) return s;
         if (Status s =
-                tools::field_values(settings_.picture.fields_of, block.field(), run_, &values);
+                tools::field_values(settings_.picture.fields_of, block_.field(), run_, &values);
             !s.ok()) {
           return s;
         }
@@ -171,7 +170,7 @@ class VolumeStream {
         if (Status s = read_distances(distances, slabs_[i], &values); !s.ok()) return s;
       }
       if (i == 0) {
-        if (Status s = write_header(block, &out, &end); !s.ok()) return s;
+        if (Status s = write_header(&out, &end); !s.ok()) return s;
       }
       const auto bytes = static_cast<std::int64_t>(values.size() * sizeof(float));
       if (Status s = out.write(end, values.data(), bytes); !s.ok()) return s;
@@ -229,7 +228,8 @@ class VolumeStream {
     if (Status s = first ? Status() : in.open(path(newest())); !s.ok()) return s;
     if (Status s = out.create(path(next())); !s.ok()) return s;
     const auto n = file_.volume().size;
-    std::vector<float> face(distance_face_size(n[0], n[1])), distance;
+    std::vector<float> face(distance_face_size(n[0], n[1]));
+    std::vector<float>& distance = distance_;
     VolumeRange range;
     for (std::size_t k = 0; k < slabs_.size(); ++k) {
       const tools::Slab& slab = slabs_[rising ? k : slabs_.size() - 1 - k];
@@ -273,34 +273,28 @@ class VolumeStream {
                                 settings_.distance, distance, silent);
   }
 
-  Status start(const ScratchFile& distances, const tools::Slab& slab, OcclusionBlock* block) {
-    *block = {};
-    std::vector<float> distance;
-    if (Status s = read_distances(distances, slab, &distance); !s.ok()) return s;
-    return block->start(grid(distance, slab), settings_.occlusion, run_);
+  Status start(const ScratchFile& distances, const tools::Slab& slab) {
+    if (Status s = read_distances(distances, slab, &distance_); !s.ok()) return s;
+    return block_.start(grid(distance_, slab), settings_.occlusion, run_);
   }
   // Where a slab's visibilities lie in a file of a half.
   std::int64_t first_of(const tools::Slab& slab, const OcclusionBlock& block) const {
     const int cell = field_cell(settings_.occlusion.transport);
     return slab.begin / cell * static_cast<std::int64_t>(block.face_size());
   }
-  Status sweep_up(std::size_t i, const ScratchFile& fallen, OcclusionBlock* block,
-                  std::vector<std::int16_t>* face) {
+  Status sweep_up(std::size_t i, const ScratchFile& fallen, std::vector<std::int16_t>* face) {
     std::span<const std::int16_t> up;
     if (i > 0) up = *face;
-    face->resize(block->face_size());
-    if (Status s = block->sweep(true, up, *face, run_); !s.ok()) return s;
-    std::vector<std::uint8_t> half(block->half(true).size());
-    if (Status s = fallen.read(first_of(slabs_[i], *block), half.data(),
-                               static_cast<std::int64_t>(half.size()));
-        !s.ok()) {
-      return s;
-    }
-    return block->restore(false, half);
+    face->resize(block_.face_size());
+    if (Status s = block_.sweep(true, up, *face, run_); !s.ok()) return s;
+    return block_.restore(false, [&](std::span<std::uint8_t> half) {
+      return fallen.read(first_of(slabs_[i], block_), half.data(),
+                         static_cast<std::int64_t>(half.size()));
+    });
   }
-  Status write_header(const OcclusionBlock& block, ScratchFile* out, std::int64_t* end) const {
+  Status write_header(ScratchFile* out, std::int64_t* end) const {
     const FieldsKind kind = settings_.picture.fields_of;
-    tools::FieldGrid grid = tools::field_grid(kind, file_.volume(), block.field());
+    tools::FieldGrid grid = tools::field_grid(kind, file_.volume(), block_.field());
     const int cell = kind == FieldsKind::kDistance ? 1 : field_cell(settings_.occlusion.transport);
     grid.size[2] = (file_.volume().size[2] + cell - 1) / cell;
     const std::string header = tools::nrrd_field_header(grid, tools::field_names(kind));
@@ -315,6 +309,9 @@ class VolumeStream {
   RunOptions run_;
   tools::PlaneFile file_;
   std::vector<tools::Slab> slabs_;
+  // Memory that slab after slab uses.
+  std::vector<float> distance_;
+  OcclusionBlock block_;
   Passes passes_;
   double at_ = 0, steps_ = 1;  // slabs done, and all
 };
@@ -334,9 +331,9 @@ StreamBytes stream_bytes(const tools::VolumeImage& volume, FieldsKind kind, Tran
   // Transmittances, both halves, one of them twice while it comes from its file, and the floats
   // that are written; two planes of state and each thread's planes, and the faces.
   const double channels = kind == FieldsKind::kScalar ? 1 : 8;
-  const double values = 1 + 8 * d + std::max(4 * d, 4 * channels);
+  const double values = 1 + 8 * d + 4 * channels;
   const StreamBytes light{coarse * (16 * d + threads * (4 * d + 4) + 8 * d),
-                          std::max(4 * plane + coarse / cell, coarse / cell * values)};
+                          4 * plane + coarse / cell * values};
   return {kProgramBytes + std::max(distance.fixed, light.fixed),
           std::max(distance.plane, light.plane)};
 }

@@ -75,8 +75,8 @@ class OBSCURA_API OcclusionBlock {
 
   // Visibilities of a half, to be kept and brought back. Empty before its sweep.
   std::span<const std::uint8_t> half(bool rising) const;
-  // Takes the place of a sweep: `visibility` is what half() gave for this block.
-  Status restore(bool rising, std::span<const std::uint8_t> visibility);
+  // Takes the place of a sweep: `fill` writes what half() gave for this block.
+  Status restore(bool rising, FunctionRef<Status(std::span<std::uint8_t>)> fill);
 
   // The octants that have been swept, and their mean once both halves have: planes of the whole
   // field. Its light() knows no other block, so that points must lie within and beside this one.

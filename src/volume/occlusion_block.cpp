@@ -26,6 +26,22 @@ class OcclusionBlockImpl {
  public:
   VisibilityField field;
   std::unique_ptr<std::uint8_t[]> tau;
+  std::unique_ptr<std::uint8_t[]> spare[2];  // memory of the block before
+
+  // Memory of a half, whatever it holds.
+  std::uint8_t* room(int half) {
+    std::unique_ptr<std::uint8_t[]>& bytes = f().bytes[half];
+    if (!bytes) bytes = std::move(spare[half]);
+    if (!bytes) bytes.reset(new std::uint8_t[samples()]);
+    return bytes.get();
+  }
+  void take_memory(OcclusionBlockImpl& old) {
+    if (old.samples() != samples()) return;
+    for (int half = 0; half < 2; ++half) {
+      spare[half] = std::move(old.f().bytes[half] ? old.f().bytes[half] : old.spare[half]);
+    }
+    if (old.field.impl().voxels() == field.impl().voxels()) tau = std::move(old.tau);
+  }
 
   VisibilityFieldImpl& f() { return field.impl(); }
   std::size_t samples() const { return field.impl().voxels() * field.impl().channels(); }
@@ -48,7 +64,9 @@ Status OcclusionBlock::start(GridView<const float> distance, const OcclusionSett
     auto block = std::make_unique<OcclusionBlockImpl>();
     set_occlusion_grid(distance, settings, &block->f());
     block->f().scheme.plane = false;  // light() of a block goes without the table of planes
-    block->tau.reset(new std::uint8_t[block->f().voxels()]);
+    if (impl_) block->take_memory(*impl_);
+    impl_.reset();
+    if (!block->tau) block->tau.reset(new std::uint8_t[block->f().voxels()]);
     occlusion_tau(distance, block->f(), threads.executor(), block->tau.get());
     impl_ = std::move(block);
     return {};
@@ -80,13 +98,13 @@ Status OcclusionBlock::sweep(bool rising, std::span<const std::int16_t> upwind,
     Executor& executor = threads.executor();
     VisibilityFieldImpl& f = impl_->f();
     const int half = rising ? 0 : 1;
-    if (!f.bytes[half]) f.bytes[half].reset(new std::uint8_t[impl_->samples()]);
+    std::uint8_t* const visibility = impl_->room(half);
     const OcclusionSweep sweep{impl_->tau.get(),
                                f.size,
                                rising,
                                f.scheme.directions.data(),
                                f.directions(),
-                               f.bytes[half].get(),
+                               visibility,
                                upwind.empty() ? nullptr : upwind.data(),
                                downwind.empty() ? nullptr : downwind.data()};
     const int workers = std::min(executor.thread_count(), OcclusionPipeline::most_workers(sweep));
@@ -106,18 +124,9 @@ std::span<const std::uint8_t> OcclusionBlock::half(bool rising) const {
   return {impl_->field.impl().bytes[rising ? 0 : 1].get(), impl_->samples()};
 }
 
-Status OcclusionBlock::restore(bool rising, std::span<const std::uint8_t> visibility) {
+Status OcclusionBlock::restore(bool rising, FunctionRef<Status(std::span<std::uint8_t>)> fill) {
   if (!impl_) return not_started();
-  if (visibility.size() != impl_->samples()) {
-    return invalid_input(text("visibility holds ", visibility.size(), " bytes; it must hold ",
-                              impl_->samples(), ", as half() of this block"));
-  }
-  return guarded(kWhat, [&]() -> Status {
-    std::unique_ptr<std::uint8_t[]>& bytes = impl_->f().bytes[rising ? 0 : 1];
-    if (!bytes) bytes.reset(new std::uint8_t[visibility.size()]);
-    std::copy(visibility.begin(), visibility.end(), bytes.get());
-    return {};
-  });
+  return guarded(kWhat, [&] { return fill({impl_->room(rising ? 0 : 1), impl_->samples()}); });
 }
 
 const VisibilityField& OcclusionBlock::field() const {

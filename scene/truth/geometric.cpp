@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "obscura/cone.h"
-#include "scene/scenes/random.h"
 #include "scene/truth/fill_between.h"
-#include "scene/truth/hemisphere.h"
+#include "scene/truth/point_rays.h"
 
 namespace obscura::tools {
 namespace {
@@ -19,65 +18,6 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr double kHalfPi = std::numbers::pi / 2;
-
-// rho(d) and the distance beyond which it is under 2^-24, too little to be seen.
-class Rho {
- public:
-  explicit Rho(const Falloff& falloff) : f_(falloff) {
-    const double r = f_.radius;
-    switch (f_.kind) {
-      case FalloffKind::kConstant:
-      case FalloffKind::kQuadratic:
-      case FalloffKind::kTable:
-        reach_ = float(r);
-        break;
-      case FalloffKind::kExponential:
-        reach_ = float(24 * std::numbers::ln2 * r);
-        break;
-      case FalloffKind::kInverseSquare:
-        reach_ = float(4096 * r);
-        break;
-      case FalloffKind::kFunction:
-        break;
-    }
-    any_will_do_ = f_.kind == FalloffKind::kConstant ||
-                   (std::isinf(f_.radius) && f_.kind != FalloffKind::kFunction);
-  }
-
-  float reach() const { return reach_; }
-  // Whether rho is 1 all the way to reach().
-  bool any_will_do() const { return any_will_do_; }
-
-  double operator()(float distance) const {
-    if (distance == kInf) return 0;
-    if (any_will_do_) return 1;
-    const double t = double(distance) / f_.radius;
-    switch (f_.kind) {
-      case FalloffKind::kExponential:
-        return std::exp(-t);
-      case FalloffKind::kQuadratic:
-        return t < 1 ? (1 - t) * (1 - t) : 0;
-      case FalloffKind::kInverseSquare:
-        return 1 / (1 + t * t);
-      case FalloffKind::kTable: {
-        if (t > 1) return 0;
-        const double at = t * double(f_.table.size() - 1);
-        const std::size_t i = std::min(std::size_t(at), f_.table.size() - 2);
-        return f_.table[i] + (at - double(i)) * (double(f_.table[i + 1]) - f_.table[i]);
-      }
-      case FalloffKind::kFunction:
-        return f_.function(distance);
-      case FalloffKind::kConstant:
-        break;
-    }
-    return 1;
-  }
-
- private:
-  const Falloff& f_;
-  float reach_ = kInf;
-  bool any_will_do_ = false;
-};
 
 // Result of one set of directions for a pixel.
 struct Estimate {
@@ -89,13 +29,11 @@ struct Estimate {
 class Tracer {
  public:
   Tracer(const Rendering& rendering, const GeometricSettings& settings)
-      : scene_(*rendering.scene),
-        eye_(rendering.view.eye),
+      : eye_(rendering.view.eye),
         frame_(rendering.view.frame()),
         g_(rendering.gbuffer),
         s_(settings),
-        rho_(settings.falloff),
-        hemisphere_(settings.rays),
+        rays_(*rendering.scene, settings.falloff, settings.rays),
         offset_(settings.offset > 0 ? settings.offset : 1e-5 * g_.scene_size),
         chosen_(settings.offset > 0) {}
 
@@ -120,48 +58,17 @@ class Tracer {
                       frame_.to_world(around.z)};
     const Vec3 surface = eye_ + frame_.to_world(point);
     const Vec3 origin = surface + world.z * offset(surface, depth);
-    Random random((std::uint64_t(s_.seed) << 33) ^ (std::uint64_t(i) << 1) ^ (cosine ? 1 : 0));
-    const int count = hemisphere_.count();
-    Vec3 sum;
-    double visible = 0;
-    RayScene::Bundle bundle;
-    Hemisphere::Direction local[RayScene::kLanes];
-    float distance[RayScene::kLanes];
-    for (int first = 0; first < count; first += RayScene::kLanes) {
-      bundle.count = std::min(RayScene::kLanes, count - first);
-      for (int k = 0; k < bundle.count; ++k) {
-        const std::uint64_t bits = random.bits();
-        const float u = float(bits >> 40) * 0x1p-24f, v = float(bits & 0xFFFFFF) * 0x1p-24f;
-        local[k] = cosine ? hemisphere_.cosine_weighted(first + k, u, v)
-                          : hemisphere_.uniform(first + k, u, v);
-        const Vec3 w = world.to_world({local[k].x, local[k].y, local[k].z});
-        bundle.x[k] = float(w.x);
-        bundle.y[k] = float(w.y);
-        bundle.z[k] = float(w.z);
-      }
-      scene_.distances(origin, bundle, rho_.reach(), !rho_.any_will_do(), distance);
-      for (int k = 0; k < bundle.count; ++k) {
-        const double v = 1 - rho_(distance[k]);
-        (*values)[first + k] = float(v);
-        visible += v;
-        sum += Vec3{local[k].x, local[k].y, local[k].z} * v;
-      }
-    }
-    Estimate e;
-    e.visibility = visible / count;
-    e.direction = around.to_world(sum) / count;
-    e.error = hemisphere_.standard_error(*values);
-    return e;
+    const std::uint64_t key = (std::uint64_t(s_.seed) << 33) ^ (std::uint64_t(i) << 1);
+    const PointRays::Result r = rays_.trace(origin, world, cosine, key, values);
+    return {r.visibility, r.error, around.to_world(r.sum) / rays_.count()};
   }
 
  private:
-  const RayScene& scene_;
   const Vec3 eye_;
   const Frame frame_;
   const DepthInput& g_;
   const GeometricSettings& s_;
-  const Rho rho_;
-  const Hemisphere hemisphere_;
+  const PointRays rays_;
   const double offset_;
   const bool chosen_;  // by the user
 };

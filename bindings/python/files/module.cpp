@@ -21,6 +21,7 @@ py::array_t<float> to_array(const std::vector<float>& values,
 PYBIND11_MODULE(_files, m) {
   m.doc() = "The part of obscura that reads files; use the package.";
   add_images(m);
+  add_mesh_points(m);
   add_views(m);
   add_volume_files(m);
 }

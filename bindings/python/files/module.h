@@ -9,6 +9,7 @@ namespace obscura::python {
 
 // Each part of the module adds its functions.
 void add_images(py::module_& m);
+void add_mesh_points(py::module_& m);
 void add_views(py::module_& m);
 void add_volume_files(py::module_& m);
 

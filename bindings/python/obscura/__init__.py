@@ -7,8 +7,8 @@ Images are float32 arrays of shape (H, W) with row 0 on top, vectors (H, W, 3) i
 y up, z towards the camera. Depth is positive; +inf is background.
 """
 from ._camera import Camera
-from ._files_api import (Comparison, DepthImage, Mesh, compare, gbuffer, read, read_depth,
-                         volume_picture, write)
+from ._files_api import (Comparison, DepthImage, Mesh, compare, gbuffer, mesh_visibility, read,
+                         read_depth, volume_picture, write)
 from ._light import Environment, light
 from ._screen import Estimator, visibility
 from ._settings import methods, settings
@@ -19,6 +19,6 @@ from ._library import version as _version
 
 __version__ = _version()
 __all__ = ["Camera", "Comparison", "DepthImage", "Environment", "Estimator", "Mesh",
-           "VisibilityField", "Volume", "compare", "gbuffer", "light", "methods", "read",
-           "read_depth", "settings", "sweep_distance", "sweep_occlusion", "sweep_shadow", "terrain",
+           "VisibilityField", "Volume", "compare", "gbuffer", "light", "mesh_visibility", "methods",
+           "read", "read_depth", "settings", "sweep_distance", "sweep_occlusion", "sweep_shadow", "terrain",
            "visibility", "volume_picture", "write"]

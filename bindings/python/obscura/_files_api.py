@@ -95,6 +95,47 @@ def gbuffer(source, *, shape=None, threads=0, **settings):
     return DepthImage(_tools().see_file(name, texts, threads))
 
 
+def mesh_visibility(vertices, faces, points=None, normals=None, *, bent_normals=False, threads=0,
+                    progress=None, **settings):
+    """Ambient visibility at points of a mesh, by rays, for baking.
+
+    vertices: float32 array (V, 3); faces: uint32 array (F, 3) of indices. Both sides of a triangle
+        hide the light.
+    points, normals: float32 arrays (N, 3) in the space of the vertices; normals of any length above
+        0. Without them the vertices themselves, with the mean of their faces' normals by area,
+        counterclockwise seen from outside.
+    settings: obscura.settings("mesh_visibility") lists them; radius is in the unit of the vertices,
+        inf with falloff="constant" for the whole mesh.
+
+    Returns float32 (N,), 1 is open; with bent_normals the pair of it and the mean open directions,
+    float32 (N, 3), unit vectors.
+    """
+    texts = as_text("mesh_visibility", settings)
+    v, f = _array("vertices", vertices), _array("faces", faces)
+    if (points is None) != (normals is None):
+        raise TypeError("points and normals go together; give both or neither")
+    if points is None:
+        points, normals = v, _vertex_normals(v, f)
+    visible, bent = _tools().points_of_mesh(v, f, _array("points", points),
+                                            _array("normals", normals), bool(bent_normals), texts,
+                                            threads, _progress(progress))
+    return (visible, bent) if bent_normals else visible
+
+
+def _vertex_normals(vertices, faces):
+    """The mean of the normals of a vertex's faces, by area; (0, 0, 1) where it has none."""
+    if np.ndim(vertices) != 2 or np.ndim(faces) != 2 or len(faces) == 0 or \
+            np.max(faces) >= len(vertices):
+        return np.zeros(np.shape(vertices), np.float32)  # what is wrong with them is said later
+    corners = np.asarray(vertices, np.float64)[np.asarray(faces, np.int64)]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sums = np.zeros((len(vertices), 3))
+    for k in range(3):
+        np.add.at(sums, np.asarray(faces)[:, k], areas)
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), [0, 0, 1]).astype(np.float32)
+
+
 def read_depth(path, **settings):
     """A depth image of an EXR, PFM or 16-bit PNG file with its camera, normals and guard band: a
     DepthImage. obscura.settings("read_depth") lists what a file may not say by itself, such as

@@ -4,7 +4,8 @@ from . import _library
 _METHODS = _library.methods()
 _TABLES = _library.tables()
 # Tables of the part that is loaded at its first use.
-_OF_FILES = {"gbuffer": "view_settings", "truth": "truth_settings",
+_OF_FILES = {"gbuffer": "view_settings", "mesh_visibility": "mesh_point_settings",
+             "truth": "truth_settings",
              "read_depth": "depth_file_settings", "volume_picture": "picture_settings"}
 
 

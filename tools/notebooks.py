@@ -14,6 +14,7 @@ import nbformat
 SOURCES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "docs/notebooks")
 # In place of the cell with the tag "parameters".
 SMALL = {"depth": "shape = (90, 160)\nrays = 16",
+         "mesh": "segments = 60\nrays = 32",
          "volume": 'path = "volume:vessels?size=40"\nisovalue = None\nshape = (60, 60)',
          "terrain": "cells = 64\ncell_size = 10.0"}
 

@@ -124,7 +124,7 @@ def mesh_visibility(vertices, faces, points=None, normals=None, *, bent_normals=
 
 def _vertex_normals(vertices, faces):
     """The mean of the normals of a vertex's faces, by area; (0, 0, 1) where it has none."""
-    if np.ndim(vertices) != 2 or np.ndim(faces) != 2 or len(faces) == 0 or \
+    if np.shape(vertices)[1:] != (3,) or np.shape(faces)[1:] != (3,) or len(faces) == 0 or \
             np.max(faces) >= len(vertices):
         return np.zeros(np.shape(vertices), np.float32)  # what is wrong with them is said later
     corners = np.asarray(vertices, np.float64)[np.asarray(faces, np.int64)]

@@ -3,6 +3,8 @@
 #include <spawn.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <map>
 #include <thread>
 
 #include "tests/command/run_command.h"
@@ -79,6 +81,85 @@ TEST_F(EndingsTest, KilledWhileWritingTheOldFileStays) {
       const std::string content = read_file(path("o.exr"));
       EXPECT_TRUE(content == "the old one" || content.size() > 10000) << i;
     }
+  }
+}
+
+struct Writer {
+  std::vector<std::string> words;
+  std::vector<std::string> outputs;
+};
+std::vector<Writer> writers() {
+  return {
+      {{"ao", "scene:cornell?size=300x200", "--method", "line", "-q", "-o", "o.exr"}, {"o.exr"}},
+      {{"light", "scene:cornell?size=160x90", "--environment", "sky", "--no-cache", "-q", "-o",
+        "o.exr"},
+       {"o.exr"}},
+      {{"gbuffer", "scene:hall?size=500x300", "-q", "-o", "o.exr"}, {"o.exr"}},
+      {{"volume", "volume:gyroid?size=64", "--size", "64x64", "-q", "--fields", "f.nrrd", "-o",
+        "v.exr"},
+       {"f.nrrd", "v.exr"}}};
+}
+
+// A file is the old one or a whole new one, at whatever moment a run is ended; nothing else stays.
+TEST_F(EndingsTest, EndedAtAnyMoment) {
+  const char* given = std::getenv("OBSCURA_MOMENTS");
+  const int moments = given ? std::atoi(given) : 4;
+  for (const Writer& writer : writers()) {
+    std::map<std::string, std::string> whole;
+    ASSERT_EQ(killed(writer.words, 0, std::chrono::milliseconds(0)), 0) << writer.words[0];
+    const double seconds = took_.count();
+    for (const std::string& name : writer.outputs) whole[name] = read_file(path(name));
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+      for (int i = 0; i < moments; ++i) {
+        for (const std::string& name : writer.outputs) write(name, "the old one");
+        const auto wait = std::chrono::duration<double>(1.1 * seconds * (i + 0.5) / moments);
+        const int status = killed(writer.words, signal,
+                                  std::chrono::duration_cast<std::chrono::milliseconds>(wait));
+        EXPECT_EQ(files().size(), writer.outputs.size()) << writer.words[0] << " " << signal;
+        bool all_new = true;
+        for (const std::string& name : writer.outputs) {
+          const std::string content = read_file(path(name));
+          all_new = all_new && content == whole[name];
+          EXPECT_TRUE(content == "the old one" || content == whole[name]) << name << " " << signal;
+        }
+        // Who says that all is done has done it.
+        EXPECT_TRUE(all_new || !WIFEXITED(status) || WEXITSTATUS(status) != 0) << writer.words[0];
+      }
+    }
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
+  }
+}
+
+// A disk that is full after so many bytes, here as the largest file that may be written.
+TEST_F(EndingsTest, FullDisks) {
+  for (const Writer& writer : writers()) {
+    std::string line;
+    for (const std::string& word : writer.words) line += " '" + word + "'";
+    std::uintmax_t largest = 0;
+    ASSERT_EQ(run(line).code, 0);
+    for (const std::string& name : writer.outputs) {
+      largest = std::max(largest, std::filesystem::file_size(path(name)));
+    }
+    for (const double share : {0.0, 0.1, 0.5, 0.9, 0.99}) {
+      for (const std::string& name : writer.outputs) write(name, "the old one");
+      const auto blocks = static_cast<long>(share * static_cast<double>(largest)) / 512;
+      // The logs of run() are files too, so messages go elsewhere.
+      const std::string shell = "cd '" + folder_ + "' && ulimit -f " + std::to_string(blocks) +
+                                "; '" OBSCURA_COMMAND "' " + line + " >/dev/null 2>/dev/null";
+      const int status = std::system(shell.c_str());
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << line << " " << share;
+      bool old = false;
+      for (const std::string& name : writer.outputs) {
+        old = old || read_file(path(name)) == "the old one";
+      }
+      EXPECT_TRUE(old) << line << " " << share;
+      for (const std::string& name : files()) {
+        EXPECT_EQ(name.find(".obscura-"), std::string::npos) << name;
+      }
+    }
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
   }
 }
 

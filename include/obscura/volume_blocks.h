@@ -1,6 +1,7 @@
 #ifndef OBSCURA_VOLUME_BLOCKS_H_
 #define OBSCURA_VOLUME_BLOCKS_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,6 +48,11 @@ OBSCURA_API Status sweep_distance_block(GridView<float> distance, bool rising,
                                         std::span<const float> upwind, std::span<float> downwind,
                                         bool* changed = nullptr, const RunOptions& run = {});
 
+// Planes of the turned grid that sweep_shadow uses for a volume.
+OBSCURA_API Status shadow_planes(const std::array<int, 3>& size,
+                                 const std::array<float, 3>& spacing, std::array<float, 3> to_light,
+                                 const OcclusionSettings& settings, int* planes);
+
 // Voxels of the volume along a side of a voxel of the field: blocks but the last must have a
 // multiple of it as planes.
 constexpr int field_cell(Transport transport) { return transport == Transport::kPaper ? 1 : 2; }
@@ -66,6 +72,20 @@ class OBSCURA_API OcclusionBlock {
   // multiple of field_cell() as planes. Refuses VisibilityPrecision::kF32.
   Status start(GridView<const float> distance, const OcclusionSettings& settings,
                const RunOptions& run = {});
+
+  // In place of start, for sweep_shadow's single octant: planes `begin` to `end` of its turned grid
+  // around a whole volume of this size and spacing. It is open until shade() has been called for
+  // every block of distances. Light falls through this grid: only sweep(false, ...) counts, and
+  // field().octant(7).
+  Status start_shadow(const std::array<int, 3>& size, const std::array<float, 3>& spacing,
+                      std::array<float, 3> to_light, const OcclusionSettings& settings, int begin,
+                      int end);
+  // Transmittances where a block of distances lies: `distance` holds planes of the volume from
+  // `first` on, one more than the block's where the volume goes on above it.
+  Status shade(GridView<const float> distance, int first, const RunOptions& run = {});
+  // Of a block of a shadow, 255 is open. Blocks that several processes have shaded, each with its
+  // own distances, make one by the least of their values.
+  std::span<std::uint8_t> transmittance();
 
   std::size_t face_size() const;  // numbers of a face: 4 to 40 for each voxel of a plane
 

@@ -10,6 +10,7 @@
 #include "volume/occlusion_kernel.h"
 #include "volume/sweep_halves.h"
 #include "volume/visibility_field.h"
+#include "volume/volume_access.h"
 
 namespace obscura {
 namespace {
@@ -26,6 +27,8 @@ class OcclusionBlockImpl {
  public:
   VisibilityField field;
   std::unique_ptr<std::uint8_t[]> tau;
+  std::array<int, 3> volume{};               // of a shadow: the whole volume's size
+  int begin = 0;                             // and the block's first plane of the turned grid
   std::unique_ptr<std::uint8_t[]> spare[2];  // memory of the block before
 
   // Memory of a half, whatever it holds.
@@ -71,6 +74,81 @@ Status OcclusionBlock::start(GridView<const float> distance, const OcclusionSett
     impl_ = std::move(block);
     return {};
   });
+}
+
+Status shadow_planes(const std::array<int, 3>& size, const std::array<float, 3>& spacing,
+                     std::array<float, 3> to_light, const OcclusionSettings& settings,
+                     int* planes) {
+  return guarded(kWhat, [&]() -> Status {
+    if (Status s = validate_ranges(settings); !s.ok()) return s;
+    if (Status s = validate_grid("volume", &size, size, spacing); !s.ok()) return s;
+    if (Status s = unit_light(&to_light); !s.ok()) return s;
+    VisibilityFieldImpl f;
+    if (Status s = set_shadow_grid(size, spacing, to_light, settings, &f); !s.ok()) return s;
+    *planes = f.size[2];
+    return {};
+  });
+}
+
+Status OcclusionBlock::start_shadow(const std::array<int, 3>& size,
+                                    const std::array<float, 3>& spacing,
+                                    std::array<float, 3> to_light,
+                                    const OcclusionSettings& settings, int begin, int end) {
+  int planes = 0;
+  if (Status s = shadow_planes(size, spacing, to_light, settings, &planes); !s.ok()) return s;
+  if (settings.precision != VisibilityPrecision::kU8) {
+    return unsupported("precision is f32; blocks are swept as u8");
+  }
+  if (begin < 0 || begin >= end || end > planes) {
+    return invalid_argument(text("the block has planes ", begin, " to ", end,
+                                 "; they must be some of the turned grid's ", planes));
+  }
+  return guarded(kWhat, [&]() -> Status {
+    if (Status s = unit_light(&to_light); !s.ok()) return s;
+    auto block = std::make_unique<OcclusionBlockImpl>();
+    if (Status s = set_shadow_grid(size, spacing, to_light, settings, &block->f()); !s.ok()) {
+      return s;
+    }
+    block->f().size[2] = end - begin;
+    block->volume = size;
+    block->begin = begin;
+    if (impl_) block->take_memory(*impl_);
+    impl_.reset();
+    if (!block->tau) block->tau.reset(new std::uint8_t[block->f().voxels()]);
+    std::fill_n(block->tau.get(), block->f().voxels(), std::uint8_t{255});
+    impl_ = std::move(block);
+    return {};
+  });
+}
+
+Status OcclusionBlock::shade(GridView<const float> distance, int first, const RunOptions& run) {
+  if (!impl_ || !impl_->f().shadow) {
+    return invalid_input("the block is none of a shadow; call start_shadow first");
+  }
+  if (Status s = validate_grid("distance", distance.data, distance.size, distance.spacing);
+      !s.ok()) {
+    return s;
+  }
+  const std::array<int, 3>& n = impl_->volume;
+  if (distance.size[0] != n[0] || distance.size[1] != n[1] || first < 0 ||
+      first > n[2] - distance.size[2]) {
+    return invalid_input(text("distance holds ", distance.size[0], "x", distance.size[1], "x",
+                              distance.size[2], " voxels from plane ", first,
+                              " on; they must be planes of the volume's ", n[0], "x", n[1], "x",
+                              n[2]));
+  }
+  return guarded(kWhat, [&]() -> Status {
+    const RunThreads threads(run);
+    if (!threads.status().ok()) return threads.status();
+    shadow_tau(GridSampler(distance, first, n[2]), impl_->f(), impl_->begin, threads.executor(),
+               impl_->tau.get());
+    return {};
+  });
+}
+
+std::span<std::uint8_t> OcclusionBlock::transmittance() {
+  if (!impl_) return {};
+  return {impl_->tau.get(), impl_->f().voxels()};
 }
 
 std::size_t OcclusionBlock::face_size() const {

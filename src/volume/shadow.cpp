@@ -13,22 +13,25 @@
 #include "volume/visibility_field.h"
 
 namespace obscura {
-namespace {
-
 // A turned grid of cubes has at most so many voxels for each of the volume's, and some more for
 // small volumes: flat or long voxels fall into many cubes.
 constexpr double kMostTurned = 64, kFewVoxels = 1 << 24;
 
-// A grid turned so that its axis (1, 1, 1) points to the light, around the whole volume.
-Status sweep_turned(GridView<const float> distance, const Vec3& light,
-                    const OcclusionSettings& settings, VisibilityField* field,
-                    const RunOptions& run) {
-  const RunThreads threads(run);
-  if (!threads.status().ok()) return threads.status();
-  Executor& executor = threads.executor();
-  VisibilityField result;
-  VisibilityFieldImpl& f = result.impl();
-  const float fine = *std::min_element(distance.spacing.begin(), distance.spacing.end());
+Status unit_light(std::array<float, 3>* to_light) {
+  std::array<float, 3>& l = *to_light;
+  const float length = std::hypot(l[0], l[1], l[2]);
+  if (!(length > 0 && std::isfinite(length))) {
+    return invalid_argument(
+        text("to_light is (", l[0], ", ", l[1], ", ", l[2], "); it must be finite and not zero"));
+  }
+  for (float& w : l) w /= length;
+  return {};
+}
+
+Status set_shadow_grid(const std::array<int, 3>& size, const Vec3& spacing, const Vec3& light,
+                       const OcclusionSettings& settings, VisibilityFieldImpl* field) {
+  VisibilityFieldImpl& f = *field;
+  const float fine = *std::min_element(spacing.begin(), spacing.end());
   f.scheme = transport_scheme(settings.transport, {fine, fine, fine});
   f.scheme.plane = false;
   f.alpha = settings.alpha;
@@ -60,7 +63,7 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
     for (int a = 0; a < 3; ++a) {
       float u = 0;
       for (int b = 0; b < 3; ++b) {
-        const float extent = distance.spacing[b] * static_cast<float>(distance.size[b] - 1);
+        const float extent = spacing[b] * static_cast<float>(size[b] - 1);
         u += f.turned[a][b] * (corner >> b & 1 ? extent : 0);
       }
       low[a] = std::min(low[a], u);
@@ -70,10 +73,10 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
   double turned_voxels = 1, voxels = 1;
   for (int a = 0; a < 3; ++a) {
     turned_voxels *= std::ceil((double{high[a]} - low[a]) / side) + 1;
-    voxels *= distance.size[a];
+    voxels *= size[a];
   }
   if (!(turned_voxels <= kMostTurned * voxels + kFewVoxels)) {
-    const auto& h = distance.spacing;
+    const Vec3& h = spacing;
     return unsupported(text("shadow: with a spacing of ", h[0], ", ", h[1], ", ", h[2],
                             " a grid turned to the light has ", turned_voxels / voxels,
                             " times as many voxels as the volume; at most ", kMostTurned,
@@ -84,24 +87,47 @@ Status sweep_turned(GridView<const float> distance, const Vec3& light,
     f.size[a] = static_cast<int>(std::ceil((high[a] - low[a]) / side)) + 1;
     f.end[a] = high[a];
   }
-  const GridSampler sample(distance);
-  std::vector<std::uint8_t> tau(f.voxels());
-  executor.parallel_for(f.size[2], [&](int z, int) {
-    std::uint8_t* out = tau.data() + static_cast<std::size_t>(z) * f.size[0] * f.size[1];
+  return {};
+}
+
+void shadow_tau(const GridSampler& sample, const VisibilityFieldImpl& f, int begin,
+                Executor& executor, std::uint8_t* tau) {
+  executor.parallel_for(f.size[2], [&](int k, int) {
+    const int z = begin + k;
+    std::uint8_t* out = tau + static_cast<std::size_t>(k) * f.size[0] * f.size[1];
     for (int y = 0; y < f.size[1]; ++y) {
       for (int x = 0; x < f.size[0]; ++x, ++out) {
-        const float q[3] = {low[0] + side * static_cast<float>(x),
-                            low[1] + side * static_cast<float>(y),
-                            low[2] + side * static_cast<float>(z)};
+        const float q[3] = {f.origin[0] + f.spacing[0] * static_cast<float>(x),
+                            f.origin[1] + f.spacing[0] * static_cast<float>(y),
+                            f.origin[2] + f.spacing[0] * static_cast<float>(z)};
         Vec3 p{};
         for (int b = 0; b < 3; ++b) {
           for (int a = 0; a < 3; ++a) p[b] += f.turned[a][b] * q[a];
         }
-        const float t = sample.inside(p) ? std::clamp(sample(p) / side + 0.5f, 0.0f, 1.0f) : 1.0f;
-        *out = static_cast<std::uint8_t>(255 * (1 - (1 - t) * settings.alpha) + 0.5f);
+        if (!sample.has(p)) continue;
+        const float t =
+            sample.inside(p) ? std::clamp(sample(p) / f.spacing[0] + 0.5f, 0.0f, 1.0f) : 1.0f;
+        *out = static_cast<std::uint8_t>(255 * (1 - (1 - t) * f.alpha) + 0.5f);
       }
     }
   });
+}
+
+namespace {
+
+Status sweep_turned(GridView<const float> distance, const Vec3& light,
+                    const OcclusionSettings& settings, VisibilityField* field,
+                    const RunOptions& run) {
+  const RunThreads threads(run);
+  if (!threads.status().ok()) return threads.status();
+  Executor& executor = threads.executor();
+  VisibilityField result;
+  VisibilityFieldImpl& f = result.impl();
+  if (Status s = set_shadow_grid(distance.size, distance.spacing, light, settings, &f); !s.ok()) {
+    return s;
+  }
+  std::vector<std::uint8_t> tau(f.voxels());
+  shadow_tau(GridSampler(distance), f, 0, executor, tau.data());
   const int half = static_cast<int>(kShadowOctant >> 2);
   Progress progress(settings.precision == VisibilityPrecision::kU8
                         ? f.size[2]
@@ -119,12 +145,7 @@ Status sweep_shadow(GridView<const float> distance, std::array<float, 3> to_ligh
                     const OcclusionSettings& settings, VisibilityField* field,
                     const RunOptions& run) {
   if (Status s = check_sweep(distance, settings); !s.ok()) return s;
-  const float length = std::hypot(to_light[0], to_light[1], to_light[2]);
-  if (!(length > 0 && std::isfinite(length))) {
-    return invalid_argument(text("to_light is (", to_light[0], ", ", to_light[1], ", ", to_light[2],
-                                 "); it must be finite and not zero"));
-  }
-  for (float& w : to_light) w /= length;
+  if (Status s = unit_light(&to_light); !s.ok()) return s;
   try {
     return sweep_turned(distance, to_light, settings, field, run);
   } catch (const std::bad_alloc&) {

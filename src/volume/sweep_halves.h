@@ -21,6 +21,17 @@ float occlusion_unit(const VisibilityFieldImpl& field);
 void occlusion_tau(const GridView<const float>& distance, const VisibilityFieldImpl& field,
                    Executor& executor, std::uint8_t* tau);
 
+// The same for a shadow: a grid turned so that its axis (1, 1, 1) points to the light, of unit
+// length, around a whole volume. Refuses one that would be many times the volume.
+Status set_shadow_grid(const std::array<int, 3>& size, const Vec3& spacing, const Vec3& light,
+                       const OcclusionSettings& settings, VisibilityFieldImpl* field);
+// Transmittances of the field's planes, of which the first is plane `begin` of the turned grid,
+// where the sampler has distances.
+void shadow_tau(const GridSampler& sample, const VisibilityFieldImpl& field, int begin,
+                Executor& executor, std::uint8_t* tau);
+// Scales it to unit length.
+Status unit_light(std::array<float, 3>* to_light);
+
 // Sweeps the halves of the field that are asked for (bit 0 and 1 of `halves`) through
 // transmittances as bytes.
 void sweep_halves(const std::uint8_t* tau, const OcclusionSettings& settings, int halves,

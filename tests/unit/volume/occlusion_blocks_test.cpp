@@ -115,6 +115,70 @@ TEST(OcclusionBlocks, KeepAndBringBackAHalf) {
   EXPECT_EQ(a.v, b.v);
 }
 
+// Every block of the turned grid is shaded by every block of distances, each by itself, and the
+// least of the values is taken, as ranks do that hold a slab each.
+TEST(OcclusionBlocks, ShadowsHaveTheBitsOfTheWhole) {
+  const Grid d = blobs({25, 31, 27});
+  const Cuts slabs{0, 9, 10, 26, 27};
+  for (const std::array<float, 3>& light :
+       {std::array{1.0f, 2.0f, 3.0f}, {-1, -1, -1}, {0, 0, 1}, {1, -0.2f, 0}}) {
+    for (const Transport t : {Transport::kPaper, Transport::kBalanced}) {
+      const OcclusionSettings settings{.transport = t, .alpha = 0.8f};
+      VisibilityField whole;
+      ASSERT_TRUE(sweep_shadow({d.v.data(), d.size, d.spacing}, light, settings, &whole).ok());
+      Grid one(whole.size());
+      ASSERT_TRUE(whole.octant(7, {one.v.data(), one.size, one.spacing}).ok());
+      int planes = 0;
+      ASSERT_TRUE(shadow_planes(d.size, d.spacing, light, settings, &planes).ok());
+      ASSERT_EQ(planes, whole.size()[2]);
+      std::vector<float> all(one.v.size());
+      std::vector<std::int16_t> face;
+      const Cuts cuts{0, 3, planes / 2, planes};
+      for (std::size_t b = cuts.size() - 1; b-- > 0;) {  // the light falls
+        OcclusionBlock block;
+        ASSERT_TRUE(
+            block.start_shadow(d.size, d.spacing, light, settings, cuts[b], cuts[b + 1]).ok());
+        for (std::size_t i = 0; i + 1 < slabs.size(); ++i) {
+          OcclusionBlock own;
+          ASSERT_TRUE(
+              own.start_shadow(d.size, d.spacing, light, settings, cuts[b], cuts[b + 1]).ok());
+          const int end = std::min(slabs[i + 1] + 1, d.size[2]);
+          const GridView<const float> slab(d.v.data() + d.at(0, 0, slabs[i]),
+                                           {d.size[0], d.size[1], end - slabs[i]}, d.spacing);
+          ASSERT_TRUE(own.shade(slab, slabs[i]).ok());
+          std::ranges::transform(block.transmittance(), own.transmittance(),
+                                 block.transmittance().begin(),
+                                 [](std::uint8_t a, std::uint8_t v) { return std::min(a, v); });
+        }
+        const std::vector<std::int16_t> up = face;
+        face.resize(block.face_size());
+        ASSERT_TRUE(block.sweep(false, up, face).ok());
+        const auto size = block.field().size();
+        const GridView<float> out(all.data() + one.at(0, 0, cuts[b]), size, one.spacing);
+        ASSERT_TRUE(block.field().octant(7, out).ok());
+      }
+      EXPECT_EQ(one.v, all) << enum_name(t) << ", light " << light[0] << "," << light[1];
+    }
+  }
+}
+
+TEST(OcclusionBlocks, ShadowsNameMistakes) {
+  const Grid d = blobs({25, 31, 27});
+  OcclusionBlock block;
+  EXPECT_EQ(block.shade({d.v.data(), d.size, d.spacing}, 0).message(),
+            "the block is none of a shadow; call start_shadow first");
+  Status s = block.start_shadow(d.size, d.spacing, {0, 0, 1}, {}, 0, 1000);
+  EXPECT_NE(s.message().find("the block has planes 0 to 1000; they must be some of"),
+            std::string::npos)
+      << s.message();
+  s = block.start_shadow(d.size, d.spacing, {0, 0, 0}, {}, 0, 1);
+  EXPECT_EQ(s.message(), "to_light is (0, 0, 0); it must be finite and not zero");
+  ASSERT_TRUE(block.start_shadow(d.size, d.spacing, {0, 0, 1}, {}, 0, 4).ok());
+  EXPECT_EQ(block.shade({d.v.data(), d.size, d.spacing}, 1).message(),
+            "distance holds 25x31x27 voxels from plane 1 on; they must be planes of the volume's "
+            "25x31x27");
+}
+
 // The next block of a size takes the memory of the one before, and none of its values.
 TEST(OcclusionBlocks, AreStartedAgain) {
   const Grid d = blobs({20, 30, 48});

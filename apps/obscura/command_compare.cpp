@@ -15,7 +15,7 @@ namespace {
 
 struct CompareCommand {
   std::string image, reference, mask, channel, error_image, json;
-  bool quiet = false;
+  bool allow_nan = false, quiet = false;
 };
 
 // The channels to compare: those asked for, else visibility, else all that both images have.
@@ -131,7 +131,13 @@ Status run_compare(const CompareCommand& c) {
     if (Status s = tools::write_image(c.error_image, picture); !s.ok()) return s;
   }
   if (Status s = write_json(report, c.json); !s.ok() || nan.empty()) return s;
-  return invalid_input(nan + "; the figures are of the others; --mask DEPTH leaves pixels out");
+  if (c.allow_nan) {
+    fmt::print(stderr, "obscura: note: {}, left out\n", nan);
+    return {};
+  }
+  return invalid_input(nan +
+                       "; the figures are of the others; --mask DEPTH leaves pixels out, "
+                       "--allow-nan those that are NaN");
 }
 
 }  // namespace
@@ -151,6 +157,9 @@ void add_compare(App& app) {
   command->add_option("B", c->reference, "Reference")->required()->type_name("FILE");
   command->add_option("--mask", c->mask, "Depth image; pixels without a finite depth are left out")
       ->type_name("DEPTH");
+  command->add_flag("--allow-nan", c->allow_nan,
+                    "Leave NaN pixels out with a note, such as those between the pixels of a "
+                    "reference made with --every");
   command->add_option("--channel", c->channel, "Compare this channel [visibility, else all common]")
       ->type_name("NAME");
   command

@@ -164,6 +164,10 @@ TEST_F(CommandTest, CompareNeverTakesNanForEqual) {
   EXPECT_NE(r.out.find("e_A 0.000 %"), std::string::npos) << r.out;
   EXPECT_NE(r.out.find("(2 pixels)"), std::string::npos) << r.out;
   EXPECT_NE(read_file(path("c.json")).find("\"NaN\""), std::string::npos);
+  const CommandResult allowed = run("compare a.pfm b.pfm --allow-nan");
+  EXPECT_EQ(allowed.code, 0);
+  EXPECT_NE(allowed.err.find(counts + ", left out"), std::string::npos) << allowed.err;
+  expect_failure("compare nan.pfm nan.pfm --allow-nan", 3, "4 are NaN");
   // Left out by name, it is nobody's concern.
   write("mask.pfm", pfm(2, 2, {1, inf, inf, 1}));
   EXPECT_EQ(run("compare a.pfm b.pfm --mask mask.pfm").code, 0);

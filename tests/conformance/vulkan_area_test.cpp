@@ -41,6 +41,13 @@ TEST_F(VulkanArea, GivenNormals) {
   for (float radius : {0.5f, 3.0f}) expect_same(in.field(), area(radius, 3), "plane");
 }
 
+// A floor that reaches to the horizon, where kernels end before it.
+TEST_F(VulkanArea, OpenFloor) {
+  const synthetic::Input in = synthetic::plane(160, 90, Camera::perspective(0.9f, 160, 90), 0,
+                                               std::cos(0.05), std::sin(0.05), 1 / std::sin(0.05));
+  for (float radius : {0.2f, 1.0f, 5.0f}) expect_same(in.field(), area(radius, 1), "floor");
+}
+
 // Large radii in a large image see every level; images of one level have no pyramid.
 TEST_F(VulkanArea, AgreesOnEveryLevel) {
   const synthetic::Input in = synthetic::blocks(301, 257, Camera::perspective(1, 301, 257), 4);

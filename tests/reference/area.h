@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -57,11 +58,13 @@ class Area {
       const int i = static_cast<int>(std::clamp(x + nearest(reach_x * sx), 0LL, g.width - 1LL));
       const int j = static_cast<int>(std::clamp(y + nearest(reach_y * sy), 0LL, g.height - 1LL));
 
-      // The level whose kernel has the deviation of the sample's cell, and whose successor fits.
+      // The level whose kernel has the deviation of the sample's cell, and whose successor fits
+      // into the image and before half the way to the plane's horizon.
       const double cell = p.weight_constant / (2 * zs);
       const double wanted = 0.5 * std::log2(static_cast<double>(reach_x) * reach_y * 3 * cell /
                                             (4 * std::numbers::pi));
-      const int room = std::min({i, j, g.width - 1 - i, g.height - 1 - j});
+      const double border = std::min({i, j, g.width - 1 - i, g.height - 1 - j});
+      const double room = std::max(0.0, std::min(border, 0.5 * to_horizon(i, j, plane)));
       const int octave = static_cast<int>(std::log2(room + 2));
       const double fits = octave + (room + 2.0) / (1 << octave) - 1 - 2;
       const double level = std::clamp(wanted, 0.0, std::max(0.0, std::min<double>(fits, last)));
@@ -137,6 +140,15 @@ class Area {
     const double z = g.depth(x, y);
     p.level = p.nx * (ox + z * a) + p.ny * (oy + z * b) - p.nz * z;
     return p;
+  }
+
+  // Pixels from texel (i, j) to the line where rays are parallel to the plane.
+  double to_horizon(int i, int j, const Plane& plane) const {
+    if (!g.has_normals || g.camera.orthographic) return std::numeric_limits<double>::infinity();
+    double ox, oy, a, b;
+    ray(i, j, &ox, &oy, &a, &b);
+    return -(plane.nx * a + plane.ny * b - plane.nz) /
+           std::hypot(plane.nx * g.camera.scale_x, plane.ny * g.camera.scale_y);
   }
 
   // Of the depths, or of the tangent plane's, under level `level`'s kernel at texel (u, v).

@@ -41,11 +41,10 @@ struct Place {
   ivec2 pixel;    // at its centre
 };
 
-Place place_at(TapReceiver r, ivec2 pixel, float sample_level, vec2 jitter) {
+Place place_at(TapReceiver r, ivec2 pixel, float sample_level, float horizon, vec2 jitter) {
   const ivec2 room = min(pixel, ivec2(view.width, view.height) - 1 - pixel);
-  const float least = float(min(room.x, room.y) + 2);
   const float reach = 0.5 * log2(max(r.reach_x, 1e-3) * max(r.reach_y, 1e-3)) - 0.5;
-  const float level = level_of_sample(reach, sample_level, float(floatBitsToInt(least)),
+  const float level = level_of_sample(reach, sample_level, float(min(room.x, room.y)), horizon,
                                       float(view.level_count) - 1.5);
   const float rounded = roundEven(level);
   Place s;
@@ -85,6 +84,7 @@ void main() {
   }
   const float per_radius = 1.0 / view.radius, gradient = length(vec2(r.plane_x, r.plane_y));
   const vec2 reach = vec2(r.reach_x, r.reach_y);
+  const float per_slope = horizon_per_slope(gradient, r.perspective);
   vec2 noise = vec2(0.0);
   if (kRotate) {
     const ivec2 place = pattern_place(p) % kNoise;
@@ -104,7 +104,12 @@ void main() {
     }
     const float lateral = tables[t + 2], zs = tables[t + 3], half_line = tables[t + 4];
     const ivec2 pixel = find_texel(p, reach * offset);
-    const Place place = place_at(r, pixel, tables[t + 6], jitter);
+    float horizon = kInf;
+    if (kNormals) {
+      const vec2 k = vec2(pixel - whole_image(p));
+      horizon = plane_at(r, k.x, k.y).slope * per_slope;
+    }
+    const Place place = place_at(r, pixel, tables[t + 6], horizon, jitter);
     const vec3 m = look_up(place);
     const float mu = bounded_mean((m.y - z) * per_radius);
     const float sigma = bounded_deviation(m.z * per_radius);

@@ -4,6 +4,8 @@
 // Deviations below this count as this: it keeps quotients finite.
 const float kLeastDeviation = 1e-3f;
 const float kMaxOffset = 1e30f;
+// Which part of the way to the tangent plane's horizon a kernel may cover.
+const float kHorizonShare = 0.5f;
 
 // Integral of rho(z) (end - z) from lo to hi, rho = 1.
 LEAF(Real) constant_ramp(Real lo, Real hi, Real end) {
@@ -54,13 +56,22 @@ plane_moments(Real q, Real slope, Real gradient, Real distance, Real perspective
   return moments;
 }
 
+// Times a texel's slope: how many pixels its kernel may reach towards the tangent plane's horizon,
+// the line where rays are parallel to the plane. Towards it depth bends, and beyond is no plane.
+LEAF(Real) horizon_per_slope(Real gradient, Real perspective) {
+  return real(-kHorizonShare) / leaf_max(gradient * perspective, real(1e-30f));
+}
+
 // Which level of the pyramid a sample sees, less 1/2, so that the integer to round to is the one
 // below: `reach` is the level of the sphere's radius in pixels, `sample_level` the sample's from
-// there. Near the border the level sinks until the next one's kernel, 4 2^l - 2 pixels to each
-// side, fits into the image: to log2(room + 2) - 2, linear between powers of two and so never too
-// large, which is how a float's bits lie; `room_bits` are those of room + 2.
-LEAF(Real) level_of_sample(Real reach, Real sample_level, Real room_bits, Real last) {
-  Real fits = leaf_fma(room_bits, real(1.0f / 8388608.0f), real(-129.5f));
+// there. `room` pixels from the image's border, or where a kernel may reach `horizon` pixels only,
+// the level sinks until the next one's kernel, 4 2^l - 2 pixels to each side, fits in: to
+// log2(room + 2) - 2, linear between powers of two and so never too large, which is how a float's
+// bits lie.
+LEAF(Real) level_of_sample(Real reach, Real sample_level, Real room, Real horizon, Real last) {
+  Real span = leaf_max(leaf_min(room, horizon), real(0.0f)) + real(2.0f);
+  Real bits = leaf_from_int(leaf_bits_of(span));
+  Real fits = leaf_fma(bits, real(1.0f / 8388608.0f), real(-129.5f));
   return leaf_max(leaf_min(reach + sample_level, leaf_min(fits, last)), real(-0.5f));
 }
 

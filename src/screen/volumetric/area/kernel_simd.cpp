@@ -111,18 +111,16 @@ struct Levels {
   }
 
   // The finer of the two levels that a sample of level `sample` of the sphere's sees at pixel
-  // (ix, iy), and how far the coarser counts.
-  HWY_INLINE VI Find(const Receivers& r, VI ix, VI iy, float sample, V* blend) const {
+  // (ix, iy), `horizon` pixels from that of the tangent plane, and how far the coarser counts.
+  HWY_INLINE VI Find(const Receivers& r, VI ix, VI iy, float sample, V horizon, V* blend) const {
     const D d;
-    const DI di;
     const V half = hn::Set(d, 0.5f), round = hn::Set(d, kRound);
     const VI room_x = hn::Min(ix, hn::Sub(r.max_x, ix)), room_y = hn::Min(iy, hn::Sub(max_y, iy));
-    const VI room = hn::Add(hn::Min(room_x, room_y), hn::Set(di, 2));
-    const V bits = hn::ConvertTo(d, hn::BitCast(di, hn::ConvertTo(d, room)));
-    const V level = leaf::level_of_sample(reach, hn::Set(d, sample), bits, last);
+    const V room = hn::ConvertTo(d, hn::Min(room_x, room_y));
+    const V level = leaf::level_of_sample(reach, hn::Set(d, sample), room, horizon, last);
     const V rounded = hn::Add(level, round);
     *blend = hn::Add(hn::Sub(level, hn::Sub(rounded, round)), half);
-    return hn::Sub(hn::BitCast(di, rounded), hn::Set(di, kRoundBias));
+    return hn::Sub(hn::BitCast(DI(), rounded), hn::Set(DI(), kRoundBias));
   }
 
   VI middle, max_y;
@@ -135,7 +133,13 @@ struct PlaneUnderKernel {
       : f(frame),
         per_radius(hn::Set(D(), 1 / f.view.radius)),
         // How much n.r' changes per pixel along its steepest direction.
-        gradient(hn::Sqrt(hn::MulAdd(r.plane_x, r.plane_x, hn::Mul(r.plane_y, r.plane_y)))) {}
+        gradient(hn::Sqrt(hn::MulAdd(r.plane_x, r.plane_x, hn::Mul(r.plane_y, r.plane_y)))),
+        per_slope(leaf::horizon_per_slope(gradient, r.perspective)) {}
+
+  // How far a kernel may reach around the texel (kx, ky) pixels from the receiver.
+  HWY_INLINE V Horizon(const Receivers& r, V kx, V ky) const {
+    return hn::Mul(leaf::plane_at(r, kx, ky).slope, per_slope);
+  }
 
   // Under the kernel between levels `level` and level + 1, (kx, ky) pixels from the receiver.
   HWY_INLINE leaf::PlaneMoments Moments(const Receivers& r, VI level, V blend, V kx, V ky) const {
@@ -146,7 +150,7 @@ struct PlaneUnderKernel {
   }
 
   const AreaFrame& f;
-  V per_radius, gradient;
+  V per_radius, gradient, per_slope;
 };
 
 template <bool kRotate, bool kNormals, bool kThickness>
@@ -173,9 +177,13 @@ HWY_INLINE void FindTaps(const AreaFrame& f, Receivers r, Vec3 n, Vec3 noise, in
     VI ix, iy;
     r.Find(hn::Add(du, round), hn::Add(dv, round), &ix, &iy);
     iy = hn::Add(iy, levels.middle);
-    V blend, kx, ky;
+    V blend, kx, ky, horizon = hn::Inf(d);
     VI px, py;
-    const VI level = levels.Find(r, ix, iy, f.level[i], &blend);
+    if constexpr (kNormals) {
+      r.Offset(ix, hn::Sub(iy, levels.middle), &kx, &ky);
+      horizon = plane.Horizon(r, kx, ky);
+    }
+    const VI level = levels.Find(r, ix, iy, f.level[i], horizon, &blend);
     const VI index = pyramid.template Find<kRotate>(level, ix, iy, jitter_x, jitter_y, &px, &py);
     hn::Store(index, DI(), block->index[v][i]);
     hn::Store(blend, d, block->blend[v][i]);

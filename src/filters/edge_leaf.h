@@ -22,6 +22,13 @@ LEAF(Real) edges_per_unit(Real surface, Real inverse_edge, bool parallel) {
   return parallel ? inverse_edge : inverse_edge / (surface * surface);
 }
 
+// 1/edge, where an edge is no longer than a share of the pixel's own depth: `per_depth` is 1/share,
+// or 0. Surfaces are positive.
+LEAF(Real) inverse_of_edge(Real inverse_edge, Real surface, Real per_depth, bool parallel) {
+  Real near = parallel ? per_depth / surface : per_depth * surface;
+  return leaf_max(inverse_edge, near);
+}
+
 // From the surface of tap k to the continuation of the receiver's, in edges.
 LEAF(Real) gap_to_surface(Real tap, Real surface, Real slope, Real k, Real per_unit) {
   return (tap - leaf_fma(slope, k, surface)) * per_unit;

@@ -4,6 +4,16 @@
 // blended with the next one (rho_between(i, t)), and rho_exp_negative(t), exp(-t) as exact as is
 // needed.
 
+// From which depth on a surface has no effect on a receiver at depth z, as a backdrop: more than
+// eight times as far behind it as the camera is in front, and as the falloff reaches. At eight
+// radii the exponential is 3e-4; the inverse square takes 64 for that. A function may reach
+// anywhere.
+LEAF(Real) depth_without_effect(Real z) {
+  if (kFalloff == kFunctionRho) return leaf_inf();
+  float radii = kFalloff == kInverseSquareRho ? 64.0f : 8.0f;
+  return z + leaf_max(real(8.0f) * z, real(radii) * rho_radius());
+}
+
 // rho of a distance in [0, FLT_MAX].
 LEAF(Real) rho_of(Real x) {
   Real t = x * rho_inverse_radius();

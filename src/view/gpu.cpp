@@ -1,7 +1,6 @@
 #include "view/gpu.h"
 
 #include "shaders/depth.h"
-#include "shaders/farthest.h"
 #include "shaders/normals.h"
 #include "shaders/widths.h"
 
@@ -67,18 +66,6 @@ int add_back_depth(const Frame& frame, const Geometry& geometry, Program* progra
   pass.overlaps = true;
   program->add(std::move(pass));
   return back;
-}
-
-int add_farthest(const Geometry& geometry, Program* program) {
-  namespace io = farthest_io;
-  const int region = program->add_region(kFarthestCount * sizeof(float));
-  // Depends on depth alone, which a barrier before the pass before has made ready.
-  program->add({.name = "farthest",
-                .shader = shaders::farthest,
-                .slots = {{io::kDepthAt, geometry.depth}, {io::kFarthestAt, region}},
-                .size = {kFarthestCount, 1},
-                .overlaps = true});
-  return region;
 }
 
 }  // namespace obscura::gpu

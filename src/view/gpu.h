@@ -15,10 +15,6 @@ Geometry add_geometry(const Frame& frame, bool normals, Program* program);
 // has.
 int add_back_depth(const Frame& frame, const Geometry& geometry, Program* program);
 
-// Adds a region of kFarthestCount floats, the greatest of which is the farthest finite depth.
-inline constexpr int kFarthestCount = 256;
-int add_farthest(const Geometry& geometry, Program* program);
-
 }  // namespace obscura::gpu
 
 #endif  // OBSCURA_SRC_VIEW_GPU_H_

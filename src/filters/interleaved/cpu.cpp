@@ -76,6 +76,7 @@ void InterleavedSums::blur_tile(const view::Geometry& g, const Resolve& how, con
   shared.channels = how.directions ? kChannels : 1;
   shared.orthographic = g.camera.orthographic;
   shared.edge = how.edge;
+  shared.edges_per_depth = how.edges_per_depth;
   for (int k = 0; k <= reach; ++k) shared.weights[k] = m % 2 == 0 && k == reach ? 0.5f : 1.0f;
 
   const int above = std::max(0, first - reach), below = std::min(height, end + reach);

@@ -17,9 +17,7 @@ void add_denoising(const Frame& frame, const Geometry& geometry, const SumRegion
   namespace io = interleaved_io;
   const bool open = sums.open >= 0, directions = sums.directions >= 0;
   const bool normals = geometry.normals >= 0;
-  const bool bounded = how.longest_edge > 0 && how.interleave > 1;
   // Every binding needs something, read or not.
-  const int farthest = bounded ? add_farthest(geometry, program) : geometry.depth;
   const int open_sums = open ? sums.open : sums.directions;
   Pass pass{.name = "blur",
             .shader = shaders::interleaved,
@@ -31,17 +29,15 @@ void add_denoising(const Frame& frame, const Geometry& geometry, const SumRegion
                           {io::kCosineOpen, how.cosine_open},
                           {io::kPaperCone, how.paper_cone},
                           {io::kUnsigned, frame.shape.directions == Directions::kUnsigned},
-                          {io::kFarthest, bounded ? kFarthestCount : 0},
                           {io::kNormals, normals}},
             .slots = {{io::kDepthAt, geometry.depth},
                       {io::kNormalsAt, normals ? geometry.normals : geometry.depth},
                       {io::kOpenAt, open_sums},
                       {io::kDirectionsAt, directions ? sums.directions : open_sums},
-                      {io::kFarthestAt, farthest},
                       {io::kDirectionResultAt, frame.results.directions}},
             .size = frame.visible(),
             .radius = how.edge,
-            .push = push_words(io::Push{.longest_edge = how.longest_edge})};
+            .push = push_words(io::Push{.edges_per_depth = how.edges_per_depth})};
   target.apply(&pass);
   program->add(std::move(pass));
 }

@@ -21,8 +21,8 @@ struct Denoising {
   int interleave = 1;
   bool cosine_open = false;
   bool paper_cone = false;
-  float edge = 0;          // twice the distance over which surfaces are kept apart
-  float longest_edge = 0;  // as a share of the farthest depth; 0: not bounded
+  float edge = 0;             // twice the distance over which surfaces are kept apart
+  float edges_per_depth = 0;  // as in Resolve
 };
 // The visibility goes to the frame's results or, of one radius of several, to `target`.
 void add_denoising(const Frame& frame, const Geometry& geometry, const SumRegions& sums,

@@ -17,7 +17,6 @@ shared float surface[kCells];  // linear on planes; 0: background
 shared float normal[3 * kCells];
 shared float value[kChannels * kCells];
 shared float blurred[kChannels * kTile * kSide];  // rows of kTile
-shared uint max_depth;
 
 // All that the tile reads.
 void load(ivec2 corner) {
@@ -55,13 +54,10 @@ float tap_weight(int i, int k, int step, float slope, float per_edge, vec3 n) {
          (kHalfOutermost && abs(k) == kReach ? 0.5 : 1.0);
 }
 
-float edge() {
-  const float longest = kFarthest > 0 ? view.longest_edge * uintBitsToFloat(max_depth) : kInf;
-  return max(0.5 * min(view.radius, longest), 1e-30);
-}
-
 float per_edge_at(int i) {
-  return edges_per_unit(surface[i], 1.0 / edge(), view.orthographic != 0);
+  const float inverse_edge = inverse_of_edge(1.0 / max(0.5 * view.radius, 1e-30), surface[i],
+                                             view.edges_per_depth, view.orthographic != 0);
+  return edges_per_unit(surface[i], inverse_edge, view.orthographic != 0);
 }
 
 void blur_rows() {
@@ -115,13 +111,8 @@ void finish_direction(ivec2 p, vec3 n, vec3 difference, float seen) {
 }
 
 void main() {
-  if (kFarthest > 0 && gl_LocalInvocationIndex == 0) max_depth = 0;
   const ivec2 corner = ivec2(gl_WorkGroupID.xy) * kTile;
   load(corner);
-  barrier();
-  for (int i = int(gl_LocalInvocationIndex); i < kFarthest; i += kThreads) {
-    atomicMax(max_depth, floatBitsToUint(farthest[i]));
-  }
   barrier();
   if (kReach > 0) blur_rows();
   barrier();

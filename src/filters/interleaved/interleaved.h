@@ -22,9 +22,10 @@ enum class Sums {
 };
 struct Resolve {
   Sums sums = Sums::kUniform;
-  bool directions = false;  // all channels; else the first
-  int interleave = 1;       // pixels m x m share a pattern; 1: no blur
-  float edge = 0;           // surfaces farther apart are kept apart, world units
+  bool directions = false;    // all channels; else the first
+  int interleave = 1;         // pixels m x m share a pattern; 1: no blur
+  float edge = 0;             // surfaces farther apart are kept apart, world units
+  float edges_per_depth = 0;  // at least as many edges lie in a pixel's depth; 0: any number
   bool paper_cone = false;
 };
 

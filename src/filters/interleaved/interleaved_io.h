@@ -17,15 +17,13 @@ IO_CONSTANT(6, bool, kDirections, false);
 IO_CONSTANT(7, bool, kCosineOpen, false);
 IO_CONSTANT(8, bool, kPaperCone, false);
 IO_CONSTANT(9, bool, kUnsigned, false);
-IO_CONSTANT(10, int, kFarthest, 0);     // entries of `farthest`; 0: edges are not bounded
-IO_CONSTANT(11, bool, kNormals, true);  // else all are alike
+IO_CONSTANT(10, bool, kNormals, true);  // else all are alike
 IO_READS(2, Depth, float, depth);
 IO_READS(3, Normals, vec4, normals);
 IO_READS(4, Open, float, open_sums);
 IO_READS(5, Directions, vec4, sums);
-IO_READS(6, Farthest, float, farthest);
-IO_DIRECTIONS(7);
-IO_PUSH(float longest_edge;);
+IO_DIRECTIONS(6);
+IO_PUSH(float edges_per_depth;);
 IO_END
 
 #endif  // OBSCURA_SRC_FILTERS_INTERLEAVED_INTERLEAVED_IO_H_

@@ -28,7 +28,7 @@ struct BlurRow {
   int first_tap = 0, last_tap = 0;
   float weights[kBlurTaps] = {};
   bool orthographic = false;
-  float edge = 0;
+  float edge = 0, edges_per_depth = 0;  // as in Resolve
 };
 void blur_row(const BlurRow& row, int width);
 

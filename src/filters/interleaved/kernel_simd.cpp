@@ -58,7 +58,10 @@ void BlurPixels(const BlurRow& row, int width) {
     const V after = difference(after_inside, row.surface_step, 1.0f);
     const V before = difference(before_inside, -row.surface_step, -1.0f);
     const V slope = leaf::surface_slope(after, before);
-    const V per_edge = leaf::edges_per_unit(s0, hn::Set(d, 1 / row.edge), row.orthographic);
+    const V inverse_edge =
+        leaf::inverse_of_edge(hn::Set(d, 1 / row.edge), hn::Max(s0, hn::Set(d, 1e-30f)),
+                              hn::Set(d, row.edges_per_depth), row.orthographic);
+    const V per_edge = leaf::edges_per_unit(s0, inverse_edge, row.orthographic);
     const V nx = hn::LoadU(d, row.normal[0] + x), ny = hn::LoadU(d, row.normal[1] + x);
     const V nz = hn::LoadU(d, row.normal[2] + x);
 

@@ -19,10 +19,9 @@
   IO_CONSTANT(6, int, kSegments, 2);                                                       \
   IO_CONSTANT(7, bool, kJitter, false);                                                    \
   IO_READS(0, Tables, uvec4, quads);                                                       \
-  IO_READS(1, OrthoOffset, float, ortho_offset);                                           \
-  IO_READS(2, Lattice, float, lattice);                                                    \
-  IO_READS(3, Receivers, vec4, receivers);                                                 \
-  IO_UPDATES(4, PlaneSums, float, sums);                                                   \
+  IO_READS(1, Lattice, float, lattice);                                                    \
+  IO_READS(2, Receivers, vec4, receivers);                                                 \
+  IO_UPDATES(3, PlaneSums, float, sums);                                                   \
   IO_PUSH(OBSCURA_RHO_WORDS int rho_start; int transposed; int lattice_stride; int margin; \
           int directions; int direction_count; int sum_stride; int add; float slope;)
 

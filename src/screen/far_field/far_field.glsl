@@ -1,5 +1,5 @@
 // The depth image in one of two orientations, as screen/far_field/plane.h has it. Before this:
-// view.transposed, view.lattice_stride, view.margin, view.directions, buffers `quads` (tables) and `ortho_offset`.
+// view.transposed, view.lattice_stride, view.margin, view.directions, buffer `quads` (tables).
 #include "screen/far_field/far_field_lattice.glsl"
 
 bool is_transposed() { return view.transposed != 0; }

@@ -5,20 +5,34 @@
 #include "screen/far_field/far_field_evaluate_io.h"
 #include "screen/far_field/far_field_evaluate.glsl"
 
+float blended_beside(float nearest, float a, float b, float blend) {
+  const bool parallel = view.orthographic != 0;
+  return blended(texel_beside(nearest, a, parallel), texel_beside(nearest, b, parallel), blend);
+}
+
 void add_taps(Receiver r, Part part, Reads reads, Place place, inout Horizon h) {
+  const float limit = depth_without_effect(r.depth);
+  const bool parallel = view.orthographic != 0;
   for (int k = 0; k < reads.tap_count; ++k) {
     const uvec4 tap = quads[reads.taps + k];
     const float along = uintBitsToFloat(tap.x);
     const vec2 weight = uintBitsToFloat(tap.yz);
     const int i = place.texel + int(tap.w);
-    float g = blended(lattice[i], lattice[i + 1], weight.x);
+    const float a = lattice[i], b = lattice[i + 1];
+    float nearest = nearest_of_lattice(a, b, parallel), g;
     if (weight.y > 0.0) {
       const int j = i + place.row_step;
-      g = blended(g, blended(lattice[j], lattice[j + 1], weight.x), weight.y);
+      const float c = lattice[j], e = lattice[j + 1];
+      nearest = nearest_of_lattice(nearest, nearest_of_lattice(c, e, parallel), parallel);
+      g = blended(blended_beside(nearest, a, b, weight.x),
+                  blended_beside(nearest, c, e, weight.x), weight.y);
+    } else {
+      g = blended_beside(nearest, a, b, weight.x);
     }
     const float q = depth_of(max(g, kSmallest));
     const float rows = along * (view.orthographic != 0 ? 1.0 : q);
-    add_point(part.slice, part_x(part, rows), part_y(part, q, rows), g > 0.0, false, 1.0, h);
+    add_point(part.slice, part_x(part, rows), part_y(part, q, rows), g > 0.0 && q < limit, false,
+              1.0, h);
   }
 }
 
@@ -41,6 +55,7 @@ vec3 sum_between(int row, int shift, int first, int last) {
 void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
                    inout Horizon h) {
   const float rows_per_outward = 1.0 / plane_scale().y;
+  const float limit = depth_without_effect(r.depth);
   for (int k = 0; k < reads.interval_count; ++k) {
     const uvec4 interval = quads[reads.intervals + k];
     const int row = (d.row_base + int(interval.x & 0xffffff)) * view.sum_stride;
@@ -51,8 +66,8 @@ void add_intervals(Receiver r, Part part, Reads reads, Direction d, Place place,
     const float q = inverse * sum.x;
     const float rows =
         inverse * sum.y * rows_per_outward + place.axis * (view.orthographic != 0 ? 1.0 : q);
-    add_point(part.slice, part_x(part, rows), part_y(part, q, rows), sum.z > 0.0, true,
-              sum.z * uintBitsToFloat(interval.w), h);
+    add_point(part.slice, part_x(part, rows), part_y(part, q, rows),
+              sum.z > 0.0 && q < limit, true, sum.z * uintBitsToFloat(interval.w), h);
   }
 }
 

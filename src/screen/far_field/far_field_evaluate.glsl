@@ -7,6 +7,7 @@
 #include "math/azimuth_leaf.h"
 #include "math/slice_leaf.h"
 #include "view/taps_leaf.h"
+#include "math/apart_leaf.h"
 #include "screen/far_field/lattice_leaf.h"
 #include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/slices_leaf.h"

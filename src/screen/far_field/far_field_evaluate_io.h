@@ -5,8 +5,8 @@
 
 IO_BEGIN(far_field_evaluate_io)
 OBSCURA_EVALUATION;
-IO_READS(5, LineSums, vec2, line_sums);
-IO_READS(6, Counts, float, counts);
+IO_READS(4, LineSums, vec2, line_sums);
+IO_READS(5, Counts, float, counts);
 IO_END
 
 #endif  // OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_EVALUATE_IO_H_

@@ -16,9 +16,8 @@ IO_READS(0, Depth, float, depth);
 IO_READS(1, Receivers, vec4, receivers);
 IO_WRITES(2, Lattice, float, lattice);
 IO_WRITES(3, Turned, vec4, turned_receivers);
-IO_READS(4, OrthoOffset, float, ortho_offset);
-IO_WRITES(5, Back, float, backs);
-IO_READS(6, GivenBack, float, given_backs);
+IO_WRITES(4, Back, float, backs);
+IO_READS(5, GivenBack, float, given_backs);
 IO_PUSH(int transposed; int lattice_stride; int margin;);
 IO_END
 

@@ -23,7 +23,7 @@ void add_piece(Part part, float depth, float back, float rows, float first, floa
 
 // What else a line's interval holds, `row` rows to its middle.
 void add_others(Part part, Rest rest, float row, int interval, float dither, inout Sectors m) {
-  if (!(rest.front < kInf)) return;
+  if (!(rest.front < depth_without_effect(part.depth))) return;
   const bool parallel = view.orthographic != 0;
   const MatterBox box = matter_box(part, parallel ? row : row * rest.front, row, row, rest.front,
                                    max(rest.back, rest.front), parallel);
@@ -31,14 +31,15 @@ void add_others(Part part, Rest rest, float row, int interval, float dither, ino
 }
 
 void add_taps(Part part, Reads reads, Place place, inout Sectors m) {
+  const float limit = depth_without_effect(part.depth);
   for (int k = 0; k < reads.tap_count; ++k) {
     const uvec4 tap = quads[reads.taps + k];
     const float row = uintBitsToFloat(tap.x), wu = uintBitsToFloat(tap.y);
     const int i = place.texel + int(tap.w);
     const Crossing c = cross_matter(lattice[i], lattice[i + 1], backs[i], backs[i + 1], wu,
-                                    wu < 0.5, join_slack(), ortho_offset[0],
+                                    wu < 0.5, join_slack(),
                                     view.orthographic != 0);
-    if (!c.surface) {
+    if (!c.surface || !(c.depth < limit)) {
       m.joined = false;
       continue;
     }
@@ -48,14 +49,14 @@ void add_taps(Part part, Reads reads, Place place, inout Sectors m) {
 }
 
 void add_intervals(Part part, Reads reads, Direction d, Place place, inout Sectors m) {
-  const float rows_per_length = 1.0 / plane_scale().y;
+  const float rows_per_length = 1.0 / plane_scale().y, limit = depth_without_effect(part.depth);
   for (int k = 0; k < reads.interval_count; ++k) {
     const uvec4 interval = quads[reads.intervals + k];
     const int row = (d.row_base + int(interval.x & 0xffffff)) * view.sum_stride;
     const int line = place.line + int(interval.y);
     const bool inside = line >= 0 && line < d.lines;
     const int at = 2 * (row + line);
-    if (!inside || !(lines[at].x < kInf)) {
+    if (!inside || !(lines[at].x < limit)) {
       m.joined = false;
       continue;
     }

@@ -6,6 +6,7 @@
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "view/taps_leaf.h"
+#include "math/apart_leaf.h"
 #include "screen/far_field/lattice_leaf.h"
 #include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/far_field_merge_io.h"

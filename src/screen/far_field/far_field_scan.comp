@@ -8,6 +8,7 @@
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "view/taps_leaf.h"
+#include "math/apart_leaf.h"
 #include "screen/far_field/lattice_leaf.h"
 #include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/far_field_scan_io.h"
@@ -65,7 +66,7 @@ Matter scan_matter(Direction d, int line, int first, int end) {
     if (crosses(d, line, r, at)) {
       c = cross_matter(lattice[at.texel], lattice[at.texel + 1], backs[at.texel],
                        backs[at.texel + 1], at.blend, at.blend < 0.5, join_slack(),
-                       ortho_offset[0], view.orthographic != 0);
+                       view.orthographic != 0);
     }
     add_matter_row(c.surface, c.depth, c.back, slanted_at(at, c.depth), at.outward, join_slack(),
                    m);

@@ -11,11 +11,10 @@ IO_THREADS(kLinesPerGroup, kStripsPerGroup);
 IO_CONSTANT(0, int, kInterval, 10);
 IO_CONSTANT(1, bool, kFinite, false);
 IO_READS(0, Tables, uvec4, quads);
-IO_READS(1, OrthoOffset, float, ortho_offset);
-IO_READS(2, Lattice, float, lattice);
-IO_READS(3, Back, float, backs);
-IO_WRITES(4, Raw, vec2, raw);  // nearest, slanted
-IO_WRITES(5, Pieces, vec4,
+IO_READS(1, Lattice, float, lattice);
+IO_READS(2, Back, float, backs);
+IO_WRITES(3, Raw, vec2, raw);  // nearest, slanted
+IO_WRITES(4, Pieces, vec4,
           pieces);  // nearest, slanted, deepest, end; front, back, filled of the rest
 IO_PUSH(int transposed; int lattice_stride; int margin; int directions; int line_stride;
         int line_step; float slope;);

@@ -14,7 +14,6 @@
 #include "shaders/far_field_gather.h"
 #include "shaders/far_field_matter.h"
 #include "shaders/far_field_merge.h"
-#include "shaders/far_field_range.h"
 #include "shaders/far_field_scan.h"
 #include "shaders/far_field_sum.h"
 #include "view/gpu.h"
@@ -49,7 +48,6 @@ class FarFieldProgram {
     normals_ = g.normals;
     program_->add_table(tables_.words());
     if (grouped()) add_average();
-    add_range();
     for (bool turned : {false, true}) add_plane(tables_.plane(turned));
     std::uint64_t raw = 1, sums = 1;
     for (const Batch& b : tables_.batches()) {
@@ -81,22 +79,6 @@ class FarFieldProgram {
     return std::uint64_t{finite() ? 8u : 4u} * p.stride * p.height;
   }
   float slope() const { return settings_.receiver_slope < 0 ? 1.0f : -1.0f; }
-
-  void add_range() {
-    namespace io = far_field_range_io;
-    constexpr int kGroups = 256;
-    const int partial = program_->add_region(kGroups * sizeof(float));
-    ortho_offset_ = program_->add_region(sizeof(float));
-    for (bool last : {false, true}) {
-      const int count = last ? kGroups : frame_.shape.width * frame_.shape.height;
-      program_->add({.name = "fill",
-                     .shader = shaders::far_field_range,
-                     .slots = {{io::kDepthAt, last ? partial : depth_},
-                               {io::kGreatestAt, last ? ortho_offset_ : partial}},
-                     .size = {last ? 1 : kGroups, 1},
-                     .push = push_words(io::Push{.count = count, .last = last})});
-    }
-  }
 
   void add_plane(const PlaneShape& p) {
     PlaneRegions& r = regions(p);
@@ -132,7 +114,6 @@ class FarFieldProgram {
                    {io::kReceiversAt, receivers},
                    {io::kLatticeAt, regions(p).lattice},
                    {io::kTurnedAt, turned},
-                   {io::kOrthoOffsetAt, ortho_offset_},
                    {io::kBackAt, regions(p).back},
                    {io::kGivenBackAt, back_}},
          .size = lattice ? Extent{p.stride, p.height} : p.visible,
@@ -162,7 +143,6 @@ class FarFieldProgram {
                    .shader = shaders::far_field_scan,
                    .constants = {{io::kInterval, settings_.interval}, {io::kFinite, finite()}},
                    .slots = {{io::kTablesAt, tables()},
-                             {io::kOrthoOffsetAt, ortho_offset_},
                              {io::kLatticeAt, regions(p).lattice},
                              {io::kBackAt, regions(p).back},
                              {io::kRawAt, raw_},
@@ -253,7 +233,6 @@ class FarFieldProgram {
                             {io::kSegments, settings_.segments},
                             {io::kJitter, settings_.jitter}},
               .slots = {{io::kTablesAt, tables()},
-                        {io::kOrthoOffsetAt, ortho_offset_},
                         {io::kLatticeAt, regions(p).lattice},
                         {io::kReceiversAt, receivers},
                         {io::kPlaneSumsAt, sums}},
@@ -345,7 +324,7 @@ class FarFieldProgram {
   const SliceSums sums_;
   Program* program_;
   PlaneRegions regions_[2];
-  int depth_ = -1, back_ = -1, normals_ = -1, ortho_offset_ = -1;
+  int depth_ = -1, back_ = -1, normals_ = -1;
   int groups_ = -1, accepted_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };

@@ -19,7 +19,6 @@ void AddMatterSlices(const SliceRow& job) {
   const Plane& p = *job.plane;
   const RowFrame f(job);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Inf(d);
-  const V ortho_offset = hn::Set(d, p.ortho_offset);
   const V slack = hn::Set(d, job.slack), dither = hn::Set(d, job.dither);
   leaf::SliceIntegral<kKind, true, kSums> slices(*job.rho);
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -30,12 +29,13 @@ void AddMatterSlices(const SliceRow& job) {
     const leaf::Part& part = r.part;
     leaf::Sectors m = leaf::start_sectors(part.slice, job.tap_count > 0, part.depth,
                                           hn::Max(hn::LoadU(d, own_back + i), part.depth));
+    const V limit = slices.depth_without_effect(part.depth);
     auto add = [&](V depth, V back, V rows, V first, V last, M valid) HWY_ATTR {
       const leaf::MatterBox box =
           leaf::matter_box(part, rows, first, last, depth, back, p.orthographic);
       const M next = hn::Lt(hn::Sub(first, m.last_row), hn::Set(d, leaf::kNextRow));
       slices.add_matter(part.slice, box, next, hn::Mul(slack, depth), dither,
-                        hn::And(valid, r.surface), m);
+                        hn::And(hn::And(valid, r.surface), hn::Lt(depth, limit)), m);
     };
     for (int k = 0; k < job.tap_count; ++k) {
       const TapRead& tap = job.taps[k];
@@ -43,7 +43,7 @@ void AddMatterSlices(const SliceRow& job) {
       const leaf::Crossing c = leaf::cross_matter(
           hn::LoadU(d, texels + tap.upper), hn::LoadU(d, texels + tap.upper_next),
           hn::LoadU(d, backs + tap.upper), hn::LoadU(d, backs + tap.upper_next), hn::Set(d, tap.wu),
-          leaf::leaf_truth(tap.wu < 0.5f), slack, ortho_offset, p.orthographic);
+          leaf::leaf_truth(tap.wu < 0.5f), slack, p.orthographic);
       const V row = hn::Set(d, tap.along);
       add(c.depth, c.back, p.orthographic ? row : hn::Mul(row, c.depth), row, row, c.surface);
     }
@@ -68,7 +68,7 @@ void AddMatterSlices(const SliceRow& job) {
       const leaf::Rest rest{hn::LoadU(d, read.line.rest_front + line),
                             hn::LoadU(d, read.line.rest_back + line),
                             hn::LoadU(d, read.line.rest_filled + line)};
-      const M more = hn::And(hn::Lt(rest.front, inf), r.surface);
+      const M more = hn::And(hn::Lt(rest.front, limit), r.surface);
       if (!hn::AllFalse(d, more)) {
         const V front = hn::IfThenElse(more, rest.front, one);
         const V row = hn::Set(d, read.away);

@@ -8,6 +8,7 @@
 
 namespace obscura {
 namespace leaf_scalar {
+#include "math/apart_leaf.h"
 #include "view/taps_leaf.h"
 // After taps_leaf.h.
 #include "screen/far_field/lattice_leaf.h"
@@ -52,7 +53,6 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   Plane& p = *plane;
   const Camera& c = g.camera;
   p.orthographic = c.orthographic;
-  p.ortho_offset = c.orthographic ? 2 * g.max_depth : 0;
   // Texel centres move to whole numbers.
   const float cu = c.center_u - 0.5f, cv = c.center_v - 0.5f;
   p.width = transposed ? g.height : g.width;
@@ -75,7 +75,7 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
     fill(p.width, p.height, executor, image, value);
   };
   lattice(&p.lattice, [&](int x, int y) {
-    return leaf_scalar::lattice_of_depth(texel(g.depth, x, y), p.ortho_offset, p.orthographic);
+    return leaf_scalar::lattice_of_depth(texel(g.depth, x, y), p.orthographic);
   });
   p.finite = occluder.kind != OccluderKind::kSolid;
   if (p.finite) {
@@ -104,8 +104,7 @@ void fill_receivers(const ReceiverSource& source, const Plane& p, bool transpose
     fill(p.visible_width, p.visible_height, executor, image, value);
   };
   write(&receivers->lattice, [&](int u, int v) {
-    return leaf_scalar::lattice_of_depth(texel(*source.depth, u, v), p.ortho_offset,
-                                         p.orthographic);
+    return leaf_scalar::lattice_of_depth(texel(*source.depth, u, v), p.orthographic);
   });
   // The image's v and this frame's third axis run against eye space's y and z.
   constexpr float kSign[] = {1, -1, -1};

@@ -36,10 +36,9 @@ struct Plane {
   float scale_u = 0, scale_v = 0, center_u = 0, center_v = 0;
   bool orthographic = false;
 
-  // What is interpolated between texels: 1/depth, or for parallel rays ortho_offset - depth;
-  // 0 on the background and in the margin.
+  // What is interpolated between texels: 1/depth, or for parallel rays depth; 0 on the background
+  // and in the margin.
   PhaseImage lattice;
-  float ortho_offset = 0;
 
   // Finite occluders: the depth at which each texel's matter ends; 0 on the background.
   bool finite = false;

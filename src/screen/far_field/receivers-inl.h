@@ -16,6 +16,7 @@ namespace HWY_NAMESPACE {
 namespace leaf {
 #include "view/taps_leaf.h"
 // After taps_leaf.h.
+#include "math/apart_leaf.h"
 #include "screen/far_field/lattice_leaf.h"
 // After lattice_leaf.h.
 #include "screen/far_field/scan_leaf.h"
@@ -54,9 +55,7 @@ struct RowFrame {
     axis = -sign * v_axis;
   }
 
-  HWY_INLINE V DepthOf(V g) const {
-    return leaf::near_depth_of_lattice(g, hn::Set(D(), plane.ortho_offset), plane.orthographic);
-  }
+  HWY_INLINE V DepthOf(V g) const { return leaf::near_depth_of_lattice(g, plane.orthographic); }
 
   const Plane& plane;
   const ReceiverImages& receivers;

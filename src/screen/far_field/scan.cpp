@@ -144,7 +144,6 @@ void scan_phase(const Plane& plane, const Direction& direction, const LineLayout
                      .begin = begin,
                      .end = end,
                      .orthographic = plane.orthographic,
-                     .ortho_offset = plane.ortho_offset,
                      .slope = settings.receiver_slope < 0 ? 1.0f : -1.0f,
                      .slack = join_slack(plane),
                      .out = out};

@@ -19,7 +19,6 @@ struct StripJob {
   int row_count;
   int begin, end;
   bool orthographic;
-  float ortho_offset;
   float slope;  // +1: m1 = max(x - depth), for a receiver that looks down; -1: the other way
   float slack;  // finite occluders: relative gap in depth that joins neighbours
   RawStrip out;

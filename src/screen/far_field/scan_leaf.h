@@ -32,10 +32,11 @@ LEAF(Real) slanted_height(Real slope, Real outward, Real depth, bool parallel) {
   return leaf_fms(slope, outward * (parallel ? real(1.0f) : depth), depth);
 }
 
-// Beside the background the nearer texel decides: a skirt that falls to infinity within one cell
-// would spoil the averages. `nearer` is that texel's value.
+// Beside the background, or what lies apart, the nearer texel decides: a skirt that falls to
+// infinity within one cell would spoil the averages. `nearer` is that texel's value.
 LEAF(Real) between_texels(Real a, Real b, Real nearer, Real blend) {
-  Truth both = leaf_less(real(0.0f), leaf_min(a, b));
+  Real least = leaf_min(a, b);
+  Truth both = leaf_both(leaf_less(real(0.0f), least), lies_beside(least, leaf_max(a, b)));
   return leaf_select(both, blended(a, b, blend), nearer);
 }
 
@@ -61,9 +62,14 @@ LEAF(Rest) no_rest() {
   r.filled = real(0.0f);
   return r;
 }
-LEAF(void) add_rest(LEAF_IN(Piece) p, LEAF_INOUT(Rest) r) {
-  Truth there = leaf_less(p.nearest, leaf_inf());
-  r.front = leaf_min(r.front, p.nearest);
+// `first` is the nearest depth of all; what lies apart from that is background.
+LEAF(void) add_rest(LEAF_IN(Piece) p, Real first, LEAF_INOUT(Rest) r) {
+  Truth counts = lies_beside(first, r.front);
+  r.front = leaf_select(counts, r.front, leaf_inf());
+  r.back = leaf_where(counts, r.back);
+  r.filled = leaf_where(counts, r.filled);
+  Truth there = leaf_both(leaf_less(p.nearest, leaf_inf()), lies_beside(first, p.nearest));
+  r.front = leaf_min(r.front, leaf_select(there, p.nearest, leaf_inf()));
   r.back = leaf_max(r.back, leaf_where(there, p.deepest));
   r.filled = r.filled + leaf_where(there, p.deepest - p.nearest);
 }
@@ -94,8 +100,9 @@ LEAF(Matter) no_matter() {
 }
 LEAF(void) add_piece_to(LEAF_IN(Piece) p, LEAF_INOUT(Matter) m) {
   Truth nearer = leaf_less(p.nearest, m.first.nearest);
-  add_rest(select_piece(nearer, m.first, p), m.rest);
+  Piece other = select_piece(nearer, m.first, p);
   m.first = select_piece(nearer, p, m.first);
+  add_rest(other, m.first.nearest, m.rest);
 }
 
 // The same while a strip is scanned: the piece that goes on, and the matter of the row before;
@@ -161,7 +168,10 @@ LEAF(Matter) merged_matter(LEAF_IN(Matter) a, LEAF_IN(Matter) b, Real slack, Rea
   front.end = leaf_select(joined, q.end, front.end);
   Matter m;
   m.first = front;
-  m.rest = merged_rest(a.rest, b.rest);
-  add_rest(select_piece(joined, no_piece(), select_piece(second, p, q)), m.rest);
+  m.rest = a.rest;
+  Rest other = b.rest;
+  add_rest(no_piece(), front.nearest, other);
+  add_rest(select_piece(joined, no_piece(), select_piece(second, p, q)), front.nearest, m.rest);
+  m.rest = merged_rest(m.rest, other);
   return m;
 }

@@ -15,6 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
+#include "math/apart_leaf.h"
 #include "view/taps_leaf.h"
 // After taps_leaf.h.
 #include "screen/far_field/lattice_leaf.h"
@@ -56,15 +57,14 @@ HWY_INLINE leaf::Matter LoadMatter(const RawStrip& s, int j) {
 
 void ScanStrip(const StripJob& job) {
   const D d;
-  const V zero = hn::Zero(d), slope = hn::Set(d, job.slope),
-          ortho_offset = hn::Set(d, job.ortho_offset);
+  const V zero = hn::Zero(d), slope = hn::Set(d, job.slope);
   for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
     Piece found = leaf::no_piece();
     for (int i = 0; i < job.row_count; ++i) {
       const ScanRow& row = job.rows[i];
       const V a = hn::LoadU(d, row.lattice + j), b = hn::LoadU(d, row.next + j);
       const V g = leaf::between_texels(a, b, row.blend < 0.5f ? a : b, hn::Set(d, row.blend));
-      const V depth = leaf::depth_of_lattice(g, ortho_offset, job.orthographic);
+      const V depth = leaf::depth_of_lattice(g, job.orthographic);
       const V height =
           leaf::slanted_height(slope, hn::Set(d, row.outward), depth, job.orthographic);
       found = leaf::add_row(found, hn::Gt(g, zero), depth, height);
@@ -75,7 +75,7 @@ void ScanStrip(const StripJob& job) {
 
 void ScanMatter(const StripJob& job) {
   const D d;
-  const V slope = hn::Set(d, job.slope), ortho_offset = hn::Set(d, job.ortho_offset);
+  const V slope = hn::Set(d, job.slope);
   const V slack = hn::Set(d, job.slack);
   for (int j = job.begin; j < job.end; j += static_cast<int>(hn::Lanes(d))) {
     leaf::MatterScan m = leaf::start_matter_scan();
@@ -84,7 +84,7 @@ void ScanMatter(const StripJob& job) {
       const leaf::Crossing c = leaf::cross_matter(
           hn::LoadU(d, row.lattice + j), hn::LoadU(d, row.next + j), hn::LoadU(d, row.back + j),
           hn::LoadU(d, row.next_back + j), hn::Set(d, row.blend),
-          leaf::leaf_truth(row.blend < 0.5f), slack, ortho_offset, job.orthographic);
+          leaf::leaf_truth(row.blend < 0.5f), slack, job.orthographic);
       const V outward = hn::Set(d, row.outward);
       const V height = leaf::slanted_height(slope, outward, c.depth, job.orthographic);
       leaf::add_matter_row(c.surface, c.depth, c.back, height, outward, slack, m);
@@ -139,6 +139,7 @@ HWY_AFTER_NAMESPACE();
 #include "math/leaf_scalar.h"
 
 namespace obscura::leaf_scalar {
+#include "math/apart_leaf.h"
 #include "view/taps_leaf.h"
 // After taps_leaf.h.
 #include "screen/far_field/lattice_leaf.h"

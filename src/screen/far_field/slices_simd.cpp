@@ -37,19 +37,30 @@ void AddSlices(const SliceRow& job) {
     const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
     const leaf::Part& part = r.part;
+    const V limit = slices.depth_without_effect(part.depth);
     leaf::Horizon h = slices.start_horizon(part.slice, job.tap_count > 0);
     const float* texels = job.texels + i;
     for (int k = 0; k < job.tap_count; ++k) {
       const TapRead& tap = job.taps[k];
       const V wu = hn::Set(d, tap.wu);
+      const bool parallel = p.orthographic;
       const V c0 = hn::LoadU(d, texels + tap.upper), c1 = hn::LoadU(d, texels + tap.upper_next);
-      V g = leaf::blended(c0, c1, wu);
+      V nearest = leaf::nearest_of_lattice(c0, c1, parallel);
+      auto blended = [&](V a, V b) HWY_ATTR {
+        return leaf::blended(leaf::texel_beside(nearest, a, parallel),
+                             leaf::texel_beside(nearest, b, parallel), wu);
+      };
+      V g;
       if (tap.wv > 0) {
         const V e0 = hn::LoadU(d, texels + tap.lower), e1 = hn::LoadU(d, texels + tap.lower_next);
-        g = leaf::blended(g, leaf::blended(e0, e1, wu), hn::Set(d, tap.wv));
+        nearest =
+            leaf::nearest_of_lattice(nearest, leaf::nearest_of_lattice(e0, e1, parallel), parallel);
+        g = leaf::blended(blended(c0, c1), blended(e0, e1), hn::Set(d, tap.wv));
+      } else {
+        g = blended(c0, c1);
       }
-      const M valid = hn::And(r.surface, hn::Gt(g, zero));
       const V q = f.DepthOf(hn::Max(g, tiny));
+      const M valid = hn::And(hn::And(r.surface, hn::Gt(g, zero)), hn::Lt(q, limit));
       const V rows = hn::Mul(hn::Set(d, tap.along), p.orthographic ? one : q);
       slices.add_point(part.slice, leaf::part_x(part, rows), leaf::part_y(part, q, rows), valid,
                        false, one, h);
@@ -62,9 +73,9 @@ void AddSlices(const SliceRow& job) {
       const int last = std::clamp(i + read.last, window.begin - lanes, window.end);
       const V count =
           hn::Sub(hn::LoadU(d, read.to.count + last), hn::LoadU(d, read.from.count + first));
-      const M valid = hn::And(r.surface, hn::Gt(count, zero));
       const V inverse = hn::Div(one, hn::Max(count, one));
       const V q = hn::Mul(inverse, SumBetween(read.from.depth + first, read.to.depth + last));
+      const M valid = hn::And(hn::And(r.surface, hn::Gt(count, zero)), hn::Lt(q, limit));
       const V outward =
           hn::Mul(inverse, SumBetween(read.from.outward + first, read.to.outward + last));
       const V rows = hn::MulAdd(outward, hn::Set(d, 1 / p.scale_v),

@@ -78,13 +78,13 @@ class HorizonMethod final : public Method {
     });
     if (progress.cancelled()) return {StatusCode::kCancelled, "stopped by the caller"};
     // A radius without end tells nothing of where one surface ends and another begins.
-    const float edge = std::min(rho_.radius, horizon::kLongestEdge * g.max_depth);
     context.timer.time("blur", [&] {
       sums_.resolve(g,
                     {.sums = kind,
                      .directions = directions,
                      .interleave = blurred() ? settings_.interleave : 1,
-                     .edge = std::max(0.5f * edge, 1e-30f),
+                     .edge = std::max(0.5f * rho_.radius, 1e-30f),
+                     .edges_per_depth = horizon::kEdgesPerDepth,
                      .paper_cone = settings_.cone == ConeEstimate::kPaper},
                     o, context.executor);
     });

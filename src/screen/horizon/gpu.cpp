@@ -72,7 +72,7 @@ Status make_program(const HorizonSettings& settings, const Frame& frame, Program
                  .cosine_open = !classic,
                  .paper_cone = settings.cone == ConeEstimate::kPaper,
                  .edge = rho.radius,
-                 .longest_edge = horizon::kLongestEdge},
+                 .edges_per_depth = horizon::kEdgesPerDepth},
                 program);
   return {};
 }

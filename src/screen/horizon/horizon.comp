@@ -118,7 +118,8 @@ void main() {
   const int i = p.y * view.visible_width + p.x;
   const float z = depth[at.y * view.width + at.x];
   const vec3 n = normals[i].xyz;
-  const LineReceiver r = receiver_at(at, z < kInf ? z : 1.0, n);
+  LineReceiver r = receiver_at(at, z < kInf ? z : 1.0, n);
+  if (!kClassic) r.limit = depth_without_effect(r.z);
   const float perspective = view.orthographic != 0 ? 0.0 : 1.0;
   const float camera = view.orthographic != 0 ? 1.0 : r.z * r.ray_length;
   const ivec2 place = pattern_place(p) % kInterleave;

@@ -12,8 +12,8 @@ inline constexpr int kMaxDirections = 64;
 using interleaved::kMaxInterleave;
 inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
-// The blur's longest edge, as a share of the farthest depth.
-inline constexpr float kLongestEdge = 0.1f;
+// The blur's edges are no longer than a twentieth of the pixel's depth.
+inline constexpr float kEdgesPerDepth = 20;
 
 // What differs from pixel to pixel of the tile.
 enum TileValue {

@@ -218,11 +218,13 @@ template <FalloffKind kKind, bool kChord, bool kMatter, SliceSums kSums>
 void Slices(const Frame& f, int row, int width, Rows out) {
   const D d;
   const RowLoader loader(f.view, row, width);
+  leaf::LineSlices<kKind, kChord, kSums> rho(*f.rho);
   const bool orthographic = f.view.camera.orthographic;
   const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, orthographic ? 0.0f : 1.0f);
   const V each = hn::Set(d, 1.0f / static_cast<float>(f.directions)), twice = hn::Add(each, each);
   for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
-    const LineReceiver r = MakeReceiver(f, loader, i, loader.Depth(i));
+    LineReceiver r = MakeReceiver(f, loader, i, loader.Depth(i));
+    r.limit = rho.depth_without_effect(r.z);
     const V camera = orthographic ? one : hn::Mul(r.z, r.ray_length);
     V own = one;
     if constexpr (kMatter) {

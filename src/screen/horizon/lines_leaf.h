@@ -14,6 +14,7 @@ struct LineReceiver {
   Real nu, nv, nw;               // the normal
   Real nz, inverse_nz, nr;       // along the zenith; n.ray
   Real u, v;                     // pixel of the whole image
+  Real limit;                    // what is as deep as that counts as background
 };
 // (nx, ny, nz) is the normal in eye space.
 LEAF(LineReceiver)
@@ -49,6 +50,7 @@ make_line_receiver(Real u, Real v, Real z, Real nx, Real ny, Real nz, Real a, Re
   r.nz = leaf_max(r.nz, real(kEdgeOnNormal));
   r.nr = leaf_neg(r.nz * r.ray_length);
   r.inverse_nz = one / r.nz;
+  r.limit = leaf_inf();
   return r;
 }
 
@@ -106,7 +108,7 @@ LEAF(LinePoint)
 line_point(LEAF_IN(LineReceiver) r, LEAF_IN(ImageLine) line, Real ku, Real kv, Real depth,
            bool parallel) {
   LinePoint p;
-  p.valid = leaf_less(depth, leaf_inf());
+  p.valid = leaf_less(depth, r.limit);
   Real q = leaf_select(p.valid, depth, r.z);
   Real away = parallel ? r.distance : q;
   p.x = away * leaf_fma(ku, line.tu, kv * line.tv);

@@ -8,6 +8,8 @@
 
 namespace obscura {
 namespace leaf_scalar {
+#include "math/apart_leaf.h"
+// After apart_leaf.h.
 #include "screen/mipmap/mipmap_leaf.h"
 }  // namespace leaf_scalar
 

@@ -16,6 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
+#include "math/apart_leaf.h"
+// After apart_leaf.h.
 #include "screen/mipmap/mipmap_leaf.h"
 }  // namespace leaf
 
@@ -78,6 +80,8 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
     const V nu = hn::LoadU(d, g.normal_x.row(y) + at);
     const V nv = hn::Neg(hn::LoadU(d, g.normal_y.row(y) + at));
     const V nw = hn::Neg(hn::LoadU(d, g.normal_z.row(y) + at));
+    leaf::SliceIntegral<kKind, false, SliceSums::kVisibility> slices(*f.rho);
+    const V limit = slices.depth_without_effect(p);
     V sum = zero;
     for (const MipmapDirection& direction : f.directions) {
       auto scaled_u = [&](float u) HWY_ATTR { return hn::Set(d, u * c.scale_x); };
@@ -85,7 +89,6 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
       const float du = direction.u, dv = direction.v;
       const leaf::Azimuth azimuth = leaf::make_azimuth(ray, scaled_u(du), scaled_v(dv), nu, nv, nw);
       const leaf::Slice slice = leaf::make_slice(azimuth.nz, azimuth.nt, camera, perspective);
-      leaf::SliceIntegral<kKind, false, SliceSums::kVisibility> slices(*f.rho);
       leaf::Horizon h = slices.start_horizon(slice, true);
       // Distance to the image's last texel centres along the direction.
       V edge = hn::Set(d, 1e9f);
@@ -103,12 +106,10 @@ void MipmapRow(const MipmapFrame& f, int row, float* HWY_RESTRICT out) {
         const V v = hn::MulAdd(t, hn::Set(d, dv), hn::Set(d, v0));
         const int level = step.level;
         V q = ReadLevel(f, level, u, v);
-        auto found = hn::Gt(q, zero);
         if (f.interpolate && level + 1 < f.level_count) {
-          const V coarse = ReadLevel(f, level + 1, u, v);
-          found = hn::And(found, hn::Gt(coarse, zero));
-          q = hn::MulAdd(hn::Set(d, step.blend), hn::Sub(coarse, q), q);
+          q = leaf::between_levels(q, ReadLevel(f, level + 1, u, v), hn::Set(d, step.blend));
         }
+        const auto found = hn::And(hn::Gt(q, zero), hn::Lt(q, limit));
         q = hn::IfThenElse(found, q, one);
         const leaf::PyramidPoint at = leaf::pyramid_point(t, q, p, ray.ray_length, azimuth.along,
                                                           azimuth.across, c.orthographic);

@@ -5,6 +5,7 @@
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "math/slice_leaf.h"
+#include "math/apart_leaf.h"
 #include "screen/mipmap/mipmap_leaf.h"
 #include "screen/mipmap/mipmap_io.h"
 #include "gpu/results.glsl"
@@ -54,6 +55,7 @@ float distance_to_edge(vec2 at, vec2 d) {
 
 void add_samples(Receiver r, Slice slice, vec2 d, Azimuth azimuth, inout Horizon h) {
   const float edge = distance_to_edge(r.at, d);
+  const float limit = depth_without_effect(r.depth);
   float before = 0.0;
   for (int k = 0; k < view.step_count; ++k) {
     const uvec4 entry = quads[view.steps + k];
@@ -63,12 +65,10 @@ void add_samples(Receiver r, Slice slice, vec2 d, Azimuth azimuth, inout Horizon
     const vec2 at = r.at + t * d;
     const int level = int(entry.y);
     float q = read_level(level, at);
-    bool found = q > 0.0;
     if (kInterpolate && level + 1 < view.level_count) {
-      const float coarse = read_level(level + 1, at);
-      found = found && coarse > 0.0;
-      q = fma(uintBitsToFloat(entry.z), coarse - q, q);
+      q = between_levels(q, read_level(level + 1, at), uintBitsToFloat(entry.z));
     }
+    const bool found = q > 0.0 && q < limit;
     if (!found) q = 1.0;
     const PyramidPoint p = pyramid_point(t, q, r.depth, r.ray.ray_length, azimuth.along,
                                          azimuth.across, view.orthographic != 0);

@@ -1,11 +1,21 @@
-// Leaf functions, C++ and GLSL: see math/leaf-inl.h. No include guard, for it is included once per
-// SIMD target.
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h; after math/apart_leaf.h. No include guard, for
+// it is included once per SIMD target.
 
-// Between four depths, two above two, at shares s and t; 0 where any is background (0).
+// Between four depths, two above two, at shares s and t; 0 where any is background (0) or they lie
+// apart.
 LEAF(Real) between_depths(Real a, Real b, Real c, Real e, Real s, Real t) {
   Real top = leaf_fma(s, b - a, a), bottom = leaf_fma(s, e - c, c);
   Real least = leaf_min(leaf_min(a, b), leaf_min(c, e));
-  return leaf_where(leaf_less(real(0.0f), least), leaf_fma(t, bottom - top, top));
+  Real most = leaf_max(leaf_max(a, b), leaf_max(c, e));
+  Truth together = leaf_both(leaf_less(real(0.0f), least), lies_beside(least, most));
+  return leaf_where(together, leaf_fma(t, bottom - top, top));
+}
+
+// Between the depths of two levels, likewise.
+LEAF(Real) between_levels(Real fine, Real coarse, Real blend) {
+  Real least = leaf_min(fine, coarse), most = leaf_max(fine, coarse);
+  Truth together = leaf_both(leaf_less(real(0.0f), least), lies_beside(least, most));
+  return leaf_where(together, leaf_fma(blend, coarse - fine, fine));
 }
 
 // The place in the slice of a point at depth q, `t` pixels along a direction whose parts along the
@@ -23,15 +33,18 @@ pyramid_point(Real t, Real q, Real depth, Real ray_length, Real along, Real acro
 }
 
 // A texel of a level from four of the level below: the mean or the least of the depths that are
-// there; 0, background, where none is.
+// there, without those that lie apart from the least; 0, background, where none is.
 LEAF(Real) depth_of_four(Real four[4], bool mean) {
   Real zero = real(0.0f);
   Real sum = zero, count = zero, nearest = leaf_inf();
   for (int i = 0; i < 4; ++i) {
     Truth there = leaf_less(zero, four[i]);
     nearest = leaf_min(nearest, leaf_select(there, four[i], leaf_inf()));
-    sum = sum + leaf_where(there, four[i]);
-    count = count + leaf_where(there, real(1.0f));
+  }
+  for (int i = 0; i < 4; ++i) {
+    Truth counts = leaf_both(leaf_less(zero, four[i]), lies_beside(nearest, four[i]));
+    sum = sum + leaf_where(counts, four[i]);
+    count = count + leaf_where(counts, real(1.0f));
   }
   return leaf_where(leaf_less(zero, count), mean ? sum / count : nearest);
 }

@@ -3,6 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
+#include "math/apart_leaf.h"
 #include "screen/mipmap/mipmap_leaf.h"
 #include "screen/mipmap/mipmap_pyramid_io.h"
 #include "gpu/view.glsl"

@@ -5,6 +5,8 @@
 #include "math/slab_leaf.h"
 #include "math/azimuth_leaf.h"
 #include "math/sphere_line_leaf.h"
+#include "math/apart_leaf.h"
+#include "screen/volumetric/area/moments_leaf.h"
 #include "screen/volumetric/area/area_leaf.h"
 #include "view/taps_leaf.h"
 #include "view/receiver_leaf.h"
@@ -60,12 +62,12 @@ Place place_at(TapReceiver r, ivec2 pixel, float sample_level, float horizon, ve
   return s;
 }
 
-// Share, mean and deviation, interpolated between levels; where the level sees background only, the
-// next one's mean and deviation stand in.
+// Share, mean and deviation, interpolated between levels; where the level sees background only, or
+// what is background beside the next one's, that one's mean and deviation stand in.
 vec3 look_up(Place s) {
   vec3 now = moments_at(s.level, s.level, s.texel), next = now;
   if (s.level + 1 < view.level_count) next = moments_at(s.level + 1, s.level, s.texel);
-  if (!(now.y > 0.0)) now.yz = next.yz;
+  if (!stands_beside(now.y, now.y, next.y, view.slack)) now = vec3(0.0, next.yz);
   return mix(now, next, s.blend);
 }
 

@@ -13,7 +13,7 @@ IO_READS(5, Moments, uvec2, moments);
 // Where the pattern starts in the tables: x, y, lateral, extent, half, weight, level. Where the
 // levels start, and how many there are: where each starts (bits) and its kernel's deviation in
 // pixels.
-IO_PUSH(int pattern; int levels; int level_count;);
+IO_PUSH(int pattern; int levels; int level_count; float slack;);
 IO_END
 
 #endif  // OBSCURA_SRC_SCREEN_VOLUMETRIC_AREA_AREA_IO_H_

@@ -9,7 +9,7 @@ namespace {
 class AreaMethod final : public Method {
  public:
   AreaMethod(const AreaSettings& settings, const AreaFrame& frame, int width, int height)
-      : frame_(frame) {
+      : frame_(frame), slack_(area_slack(settings)) {
     if (settings.rotate) noise_ = ReflectionNoise(settings.seed);
     pyramid_.resize(width, height);
   }
@@ -18,7 +18,7 @@ class AreaMethod final : public Method {
 
   Status run(const view::Geometry& g, const Outputs& outputs, const RunContext& context) override {
     if (outputs.visibility.empty()) return {};
-    pyramid_.build(g, context.executor);
+    pyramid_.build(g, slack_, context.executor);
     AreaFrame f = frame_;
     f.view = view::make_tap_frame(g, frame_.view.radius);
     f.view.noise_x = noise_.x();
@@ -36,6 +36,7 @@ class AreaMethod final : public Method {
 
  private:
   const AreaFrame frame_;
+  const float slack_;
   ReflectionNoise noise_;
   MomentPyramid pyramid_;
 };

@@ -27,7 +27,7 @@ Extent grid_size(const FrameShape& shape, int grid) {
 }
 
 Pass level_pass(const FrameShape& shape, const Geometry& g, const Pyramid& pyramid, int level,
-                int from, int to) {
+                int from, int to, float slack) {
   namespace io = moments_io;
   const int grid = level - 1, from_grid = std::max(grid - 1, 0);
   const int shift = MomentPyramid::shift(grid);
@@ -43,11 +43,12 @@ Pass level_pass(const FrameShape& shape, const Geometry& g, const Pyramid& pyram
                                       .to = to,
                                       .to_width = size.width,
                                       .to_height = size.height,
-                                      .tap_step = 1 << (grid - shift)}),
+                                      .tap_step = 1 << (grid - shift),
+                                      .slack = slack}),
           .bytes = size.pixels() * (kTexelBytes + (level == 1 ? sizeof(float) : kTexelBytes))};
 }
 
-Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, Program* program) {
+Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, float slack, Program* program) {
   Pyramid pyramid;
   pyramid.levels = MomentPyramid::level_count(shape.width, shape.height);
   pyramid.region = program->add_region(0);
@@ -55,7 +56,7 @@ Pyramid add_pyramid(const FrameShape& shape, const Geometry& g, Program* program
   int from = 0, texels = 0;
   for (int l = 1; l < pyramid.levels; ++l) {
     const int to = texels;
-    program->add(level_pass(shape, g, pyramid, l, from, to));
+    program->add(level_pass(shape, g, pyramid, l, from, to, slack));
     table.push_back(std::bit_cast<float>(to));
     table.push_back(static_cast<float>(MomentPyramid::kernel_width(l)));
     texels += static_cast<int>(grid_size(shape, l - 1).pixels());
@@ -87,7 +88,8 @@ void add_area(const AreaSettings& settings, const AreaFrame& f, const Frame& fra
        .thickness = f.thickness,
        .push = push_words(io::Push{.pattern = program->add_table(pattern),
                                    .levels = pyramid.table,
-                                   .level_count = pyramid.levels})},
+                                   .level_count = pyramid.levels,
+                                   .slack = area_slack(settings)})},
       {.samples = f.samples, .rotate = settings.rotate, .thickness = f.thickness > 0}, frame, g,
       target, program);
 }
@@ -101,7 +103,7 @@ Status make_program(const AreaSettings& settings, const Frame& frame, Program* p
   if (Status s = check({.method = "area"}, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, frame.shape.normal_use != NormalUse::kNone, program);
   add_reflections(settings.rotate, settings.seed, false, program);
-  const Pyramid pyramid = add_pyramid(frame.shape, g, program);
+  const Pyramid pyramid = add_pyramid(frame.shape, g, area_slack(settings), program);
   add_volumetric(
       settings, plan, frame, g,
       [&](const AreaFrame& f, const VisibilityTarget& target) {

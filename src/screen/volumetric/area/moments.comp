@@ -5,6 +5,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
+#include "math/apart_leaf.h"
 #include "screen/volumetric/area/moments_leaf.h"
 #include "screen/volumetric/area/moments_io.h"
 #include "gpu/view.glsl"
@@ -31,6 +32,11 @@ vec3 merge(vec3 cell[5]) {
     w[k] = kMomentWeights[k] * cell[k].x;
     m[k] = cell[k].y;
     v[k] = cell[k].z;
+  }
+  const float nearest = nearest_mean(w, m, view.slack);
+  for (int k = 0; k < 5; ++k) {
+    w[k] = weight_beside(nearest, w[k], m[k]);
+    m[k] = mean_beside(nearest, m[k]);
     sum += w[k];
   }
   if (!(sum > 0.0)) return vec3(0.0);

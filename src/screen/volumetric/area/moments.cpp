@@ -49,7 +49,8 @@ void MomentPyramid::resize(int width, int height) {
   }
 }
 
-void MomentPyramid::build(const view::Geometry& geometry, Executor& executor) {
+void MomentPyramid::build(const view::Geometry& geometry, float slack, Executor& executor) {
+  slack_ = slack;
   while (static_cast<int>(columns_.size()) < executor.thread_count()) {
     columns_.emplace_back().resize(width_ + 2 * kMargin, 1);
   }
@@ -99,7 +100,7 @@ void MomentPyramid::pack_level(int level, Executor& executor) {
       Texel* out =
           texels_.data() + start(level) + static_cast<std::int64_t>(y) * row_stride(width_, level);
       if (last) {
-        pack_moments(now, now, width, out);
+        pack_moments(now, now, width, slack_, out);
         continue;
       }
       MomentRow rows[5];
@@ -107,8 +108,8 @@ void MomentPyramid::pack_level(int level, Executor& executor) {
         const int from = y + (k - 2) * step;
         rows[k] = from >= 0 && from < height ? now_.row(from) : background_.row(0);
       }
-      merge_moments(rows, width, column.share.data() + kMargin, column.mean.data() + kMargin,
-                    column.variance.data() + kMargin);
+      merge_moments(rows, width, slack_, column.share.data() + kMargin,
+                    column.mean.data() + kMargin, column.variance.data() + kMargin);
       for (AlignedImage<float>* plane : {&column.share, &column.mean, &column.variance}) {
         std::fill_n(plane->data(), kMargin, 0.0f);
         std::fill_n(plane->data() + kMargin + width, kMargin, 0.0f);
@@ -118,8 +119,9 @@ void MomentPyramid::pack_level(int level, Executor& executor) {
         rows[k] = {column.share.data() + offset, column.mean.data() + offset,
                    column.variance.data() + offset};
       }
-      merge_moments(rows, width, next_.share.row(y), next_.mean.row(y), next_.variance.row(y));
-      pack_moments(now, next_.row(y), width, out);
+      merge_moments(rows, width, slack_, next_.share.row(y), next_.mean.row(y),
+                    next_.variance.row(y));
+      pack_moments(now, next_.row(y), width, slack_, out);
     }
   });
 }

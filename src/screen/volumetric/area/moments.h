@@ -28,8 +28,9 @@ namespace obscura {
 // Depths are averaged as means and deviations, by the law of total variance, which gives what
 // E[z^2] - E[z]^2 would in exact arithmetic but does not cancel. Only surfaces are averaged:
 // background has weight 0, and what it covers is kept as a share, so that it never bleeds into the
-// moments. Where level l sees background only, the next level's mean and deviation stand in, so
-// that they can be interpolated; the share says that they do not count.
+// moments. Surfaces far behind others count as background beside them (math/apart_leaf.h). Where
+// level l sees background only, the next level's mean and deviation stand in, so that they can be
+// interpolated; the share says that they do not count.
 class MomentPyramid {
  public:
   static constexpr int kMaxLevels = 11;
@@ -45,7 +46,8 @@ class MomentPyramid {
   static bool fits(int width, int height);
   void resize(int width, int height);
 
-  void build(const view::Geometry& geometry, Executor& executor);
+  // Depths that differ by up to four times `slack` never lie apart.
+  void build(const view::Geometry& geometry, float slack, Executor& executor);
 
   int width() const { return width_; }
   int levels() const { return levels_; }
@@ -74,6 +76,7 @@ class MomentPyramid {
 
   int width_ = 0, height_ = 0, levels_ = 0;
   std::array<std::int64_t, kMaxLevels> starts_{};
+  float slack_ = 0;
   std::vector<Texel> texels_;
   Planes now_, next_;            // a level, and the next one at the same texels
   Planes background_;            // one row of share 0

@@ -12,7 +12,8 @@ IO_READS(0, Depth, float, depth);
 IO_UPDATES(1, Moments, uvec2, moments);
 // Of the level before: where it is, its row's length, and 2 where every other texel is kept. Of
 // this one: where it goes, its size, and the distance of taps.
-IO_PUSH(int from; int from_width; int keep; int to; int to_width; int to_height; int tap_step;);
+IO_PUSH(int from; int from_width; int keep; int to; int to_width; int to_height; int tap_step;
+        float slack;);
 IO_END
 
 #endif  // OBSCURA_SRC_SCREEN_VOLUMETRIC_AREA_MOMENTS_IO_H_

@@ -20,13 +20,16 @@ struct MomentRow {
   const float* variance;
 };
 
-// Merges five rows with weights 1 4 6 4 1 by the law of total variance. The outputs are rows of
-// `width`; whole vectors are read and written past the end.
-void merge_moments(const MomentRow rows[5], int width, float* share, float* mean, float* variance);
+// `slack`: see MomentPyramid::build. Merges five rows with weights 1 4 6 4 1 by the law of total
+// variance. The outputs are rows of `width`; whole vectors are read and written past the end.
+void merge_moments(const MomentRow rows[5], int width, float slack, float* share, float* mean,
+                   float* variance);
 
-// Packs a row of a level and of the next one. Where the share of `now` is 0, mean and deviation are
-// those of `next`. Whole vectors are read past the end, none is written.
-void pack_moments(const MomentRow& now, const MomentRow& next, int width, MomentTexel* out);
+// Packs a row of a level and of the next one. Where `now` has no share, or lies apart from `next`
+// (math/apart_leaf.h), mean and deviation are those of `next`. Whole vectors are read past the end,
+// none is written.
+void pack_moments(const MomentRow& now, const MomentRow& next, int width, float slack,
+                  MomentTexel* out);
 
 }  // namespace obscura
 

@@ -1,5 +1,6 @@
 #include "screen/volumetric/area/plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -42,6 +43,12 @@ AreaFrame area_frame(const AreaSettings& settings) {
 }
 
 }  // namespace
+
+float area_slack(const AreaSettings& settings) {
+  float radius = settings.falloff.radius;
+  if (settings.dual.second_radius) radius = std::max(radius, *settings.dual.second_radius);
+  return 1.25f * view::tap_radius(radius);
+}
 
 Status make_plan(const AreaSettings& settings, AreaPlan* plan) {
   if (Status s = check_volumetric(settings); !s.ok()) return s;

@@ -14,6 +14,10 @@ namespace obscura {
 
 using AreaPlan = Spheres<AreaFrame>;
 
+// What is within a few radii of a surface never lies apart from it (math/apart_leaf.h): with radii
+// up to the depth of the scene nothing of it does, and nothing ten times as deep is part of it.
+float area_slack(const AreaSettings& settings);
+
 // Checks the settings and prepares what does not change from frame to frame, on any device.
 Status make_plan(const AreaSettings& settings, AreaPlan* plan);
 

@@ -39,7 +39,7 @@ Moments texel(const MomentPyramid& p, int level, int x, int y, bool next = false
 MomentPyramid pyramid_of(const view::Geometry& g, int threads = 1) {
   MomentPyramid p;
   p.resize(g.width, g.height);
-  p.build(g, *make_executor(threads));
+  p.build(g, 0, *make_executor(threads));
   return p;
 }
 

@@ -205,7 +205,7 @@ void area(benchmark::State& state, int width, int height) {
   if (settings.samples == 0) {
     MomentPyramid pyramid;
     pyramid.resize(width, height);
-    for (auto _ : state) pyramid.build(s->geometry, *s->executor);
+    for (auto _ : state) pyramid.build(s->geometry, 1.25f, *s->executor);
     return;
   }
   std::unique_ptr<Method> method;

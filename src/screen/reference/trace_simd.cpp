@@ -175,7 +175,9 @@ HWY_INLINE M Refill(const TraceScene& scene, RayBatch* batch, M alive, V hits, s
     level[lane] = 0;
     // From a cell's border, into the cell that the ray heads for.
     auto cell = [](float at, float g, int cells) {
-      const auto floor = static_cast<int>(at);
+      // Within the cells, for what an extreme camera makes of it may be no int.
+      const float limited = std::min(std::max(0.0f, at), static_cast<float>(cells));
+      const auto floor = static_cast<int>(limited);
       return std::clamp(floor - (g < 0 && static_cast<float>(floor) == at), 0, cells - 1);
     };
     ix[lane] = cell(batch->x[ray], batch->gx[ray], scene.cells_x);

@@ -171,8 +171,10 @@ Status reproduce_bent_fig6(const ReproduceContext& context, Report* report, std:
         !s.ok()) {
       return s;
     }
-    if (Status s = rows(HemisphereSettings{.falloff = falloff, .samples = 16, .steps = 3},
-                        ", hemisphere", &hemisphere, &marched);
+    if (Status s = rows(
+            HemisphereSettings{
+                .falloff = falloff, .occluder = Occluder::solid(), .samples = 16, .steps = 3},
+            ", hemisphere", &hemisphere, &marched);
         !s.ok()) {
       return s;
     }

@@ -60,7 +60,8 @@ struct Entry {
 };
 std::vector<Entry> entries(const Falloff& falloff) {
   auto hemisphere = [&](int samples, int steps) {
-    return HemisphereSettings{.falloff = falloff, .samples = samples, .steps = steps};
+    return HemisphereSettings{
+        .falloff = falloff, .occluder = Occluder::solid(), .samples = samples, .steps = steps};
   };
   return {{"8 samples, no steps", hemisphere(8, 0)},
           {"8 samples, 3 steps", hemisphere(8, 3)},

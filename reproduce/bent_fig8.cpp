@@ -22,7 +22,9 @@ struct ConeEntry {
   MethodSettings settings;
 };
 std::vector<ConeEntry> cone_entries(const Falloff& falloff) {
-  return {{"hemisphere", HemisphereSettings{.falloff = falloff, .samples = 16, .steps = 3}},
+  return {{"hemisphere",
+           HemisphereSettings{
+               .falloff = falloff, .occluder = Occluder::solid(), .samples = 16, .steps = 3}},
           {"far field, fast",
            FarFieldSettings{
                .falloff = falloff, .occluder = Occluder::solid(), .preset = FarFieldPreset::kFast}},
@@ -72,8 +74,10 @@ Status run_cone(const Rendering& rendering, const MethodSettings& settings, cons
 Status run_ssdo(const Rendering& rendering, const NamedLight& light, const Image& truth,
                 const SsdoEntry& entry, Executor& executor, Result* result, Image* rgb) {
   const DepthField field = rendering.gbuffer.field();
-  HemisphereSettings settings{
-      .falloff = bent_falloff(rendering), .samples = entry.samples, .steps = entry.steps};
+  HemisphereSettings settings{.falloff = bent_falloff(rendering),
+                              .occluder = Occluder::solid(),
+                              .samples = entry.samples,
+                              .steps = entry.steps};
   settings.radiance = light_of_samples(light.convolved, entry.samples, world_from_eye(rendering));
   Estimator estimator;
   if (Status s = Estimator::create(settings, field.depth.width, field.depth.height, &estimator);

@@ -63,7 +63,7 @@ std::vector<std::pair<const char*, MethodSettings>> methods(const Rendering& ren
   crytek2d.falloff = falloff;
   crytek2d.pattern = PointPattern::kScreen;
   crytek2d.samples = 16;
-  HemisphereSettings crytek3d;
+  HemisphereSettings crytek3d{.occluder = Occluder::solid()};
   crytek3d.falloff = falloff;
   crytek3d.weighting = RayWeighting::kUniform;
   HorizonSettings hbao{.occluder = Occluder::solid()};

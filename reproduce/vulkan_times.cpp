@@ -71,7 +71,7 @@ Settings samples(int count, bool blur) {
 std::vector<Row> volumetric_rows() {
   HorizonSettings horizon{.occluder = Occluder::solid()};
   horizon.variant = HorizonVariant::kClassic;
-  HemisphereSettings hemisphere;
+  HemisphereSettings hemisphere{.occluder = Occluder::solid()};
   hemisphere.samples = 16;
   HorizonSettings half{.occluder = Occluder::solid()};
   half.resolution = Resolution::kHalf;
@@ -101,8 +101,8 @@ std::vector<Table> tables() {
           {"hall",
            {2048, 1024},
            0.05f,
-           {{"Crytek3D, 8 samples, 3 steps, with directions", HemisphereSettings{}, true, 4.2 + 4.7,
-             kGeForce}}}};
+           {{"Crytek3D, 8 samples, 3 steps, with directions",
+             HemisphereSettings{.occluder = Occluder::solid()}, true, 4.2 + 4.7, kGeForce}}}};
 }
 
 struct Device {

@@ -17,7 +17,8 @@ namespace obscura {
 // and cones, Klehm et al. 2011, section 4): visibility, bent normal and cone from the same samples.
 // The pattern is interleaved: m x m neighbours use different directions and offsets, and a blur of
 // that size, which works on the difference between bent normal and normal, puts them together.
-// Takes the falloffs constant and quadratic, and the occluders solid and thickness.
+// Takes the falloffs constant and quadratic, and the occluders auto, solid,
+// thickness and back-depth.
 struct HemisphereSettings {
   Falloff falloff{.kind = FalloffKind::kConstant};
   Occluder occluder{};

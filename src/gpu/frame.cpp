@@ -4,6 +4,11 @@
 
 namespace obscura::gpu {
 
+Status check_back_depth(const Occluder& occluder, const FrameShape& shape) {
+  if (occluder.kind != OccluderKind::kBackDepth || shape.back_depth) return {};
+  return invalid_argument("the occluder is back-depth, but the shape has no image of it");
+}
+
 Status check(const Demands& demands, const FrameShape& shape) {
   if (!demands.directions && shape.directions != Directions::kNone) {
     return unsupported(text(demands.method, " gives no directions"));

@@ -4,6 +4,7 @@
 #include "gpu/frame_constants.h"
 #include "gpu/pass.h"
 #include "obscura/frame_shape.h"
+#include "obscura/occluder.h"
 
 namespace obscura::gpu {
 
@@ -46,6 +47,9 @@ struct Demands {
 
 // Whether a frame meets them.
 Status check(const Demands& demands, const FrameShape& shape);
+
+// Whether there is the image of back depth that an occluder asks for.
+Status check_back_depth(const Occluder& occluder, const FrameShape& shape);
 
 // Sizes, guard band and number of frames.
 Status check(const FrameShape& shape);

@@ -206,7 +206,8 @@ class Marcher {
 Status check(const DepthField& field, const Environment& environment,
              const ImportanceSettings& settings, const VectorView<float>& out) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_sphere(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (Status s = check_sphere(settings.falloff, settings.occluder, "importance sampling"); !s.ok())
+    return s;
   if (environment.empty()) return invalid_argument("environment is empty");
   for (const auto* view : {&out.x, &out.y, &out.z}) {
     if (view->width == field.visible().width && view->height == field.visible().height) continue;

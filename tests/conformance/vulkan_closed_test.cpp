@@ -21,7 +21,7 @@ synthetic::Input hole() {
 // processor and on Vulkan.
 TEST_F(VulkanClosed, PointsHaveOneDirectionAndOneAngle) {
   const Falloff falloff{.kind = FalloffKind::kConstant, .radius = 190};
-  HemisphereSettings hemisphere;
+  HemisphereSettings hemisphere{.occluder = Occluder::solid()};
   hemisphere.falloff = {.kind = FalloffKind::kConstant, .radius = 1};
   hemisphere.blur = false;
   HorizonSettings horizon{.occluder = Occluder::solid()};

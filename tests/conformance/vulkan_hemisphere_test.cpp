@@ -6,7 +6,7 @@ namespace {
 using VulkanHemisphere = VulkanTest;
 
 HemisphereSettings hemisphere() {
-  HemisphereSettings s;
+  HemisphereSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = 0.7f;
   return s;
 }
@@ -20,8 +20,13 @@ synthetic::Input scene(int width, int height, std::uint64_t seed, bool orthograp
 
 TEST_F(VulkanHemisphere, AgreesForEverySetting) {
   const synthetic::Input in = scene(80, 50, 3);
+  std::vector<float> back(in.depth.size());
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    back[i] = in.depth[i] + 0.1f * static_cast<float>(i % 7) - 0.05f;
+  }
   for (FalloffKind kind : {FalloffKind::kConstant, FalloffKind::kQuadratic}) {
-    for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.3f)}) {
+    for (const Occluder& occluder : {Occluder::solid(), Occluder::of_thickness(0.3f),
+                                     Occluder::automatic(), Occluder::back_depth()}) {
       for (RayWeighting weighting : {RayWeighting::kCosine, RayWeighting::kUniform}) {
         HemisphereSettings s = hemisphere();
         s.falloff.kind = kind;
@@ -31,9 +36,11 @@ TEST_F(VulkanHemisphere, AgreesForEverySetting) {
         const std::string what = "kind " + std::to_string(int(kind)) + " occluder " +
                                  std::to_string(int(occluder.kind)) + " weighting " +
                                  std::to_string(int(weighting));
-        expect_same(in.field(), s, what);
+        DepthField field = in.field();
+        if (occluder.kind == OccluderKind::kBackDepth) field.back_depth = {back.data(), 80, 50};
+        expect_same(field, s, what);
         s.blur = true;
-        expect_same(in.field(), s, what + " directions", true);
+        expect_same(field, s, what + " directions", true);
       }
     }
   }

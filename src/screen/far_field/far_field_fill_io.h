@@ -2,12 +2,11 @@
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_FAR_FIELD_FILL_IO_H_
 
 #include "gpu/io.h"
+#include "view/matter_io.h"
 
 IO_BEGIN(far_field_fill_io)
 IO_NUMBER(kTile, 32);
-IO_NUMBER(kSolid, 0);  // kinds of occluder
-IO_NUMBER(kOfThickness, 1);
-IO_NUMBER(kWithBack, 2);
+OBSCURA_MATTER_KINDS;
 IO_THREADS(32, 8);
 IO_TILE(kTile, kTile);
 IO_CONSTANT(0, bool, kLattice, true);  // else receivers alone

@@ -337,9 +337,7 @@ Status make_program(const FarFieldSettings& settings, const Frame& frame, Progra
   if (Status s = make_plan(settings, &plan); !s.ok()) return s;
   const Demands demands{.method = "far-field", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
-  if (settings.occluder.kind == OccluderKind::kBackDepth && !frame.shape.back_depth) {
-    return invalid_argument("the occluder is back-depth, but the shape has no image of it");
-  }
+  if (Status s = check_back_depth(settings.occluder, frame.shape); !s.ok()) return s;
   FarFieldProgram(plan, frame, program).build();
   return {};
 }

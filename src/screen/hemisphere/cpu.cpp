@@ -24,7 +24,9 @@ class HemisphereMethod final : public Method {
     sums_.resize(width, height);
   }
 
-  view::Needs needs() const override { return {.normals = true}; }
+  view::Needs needs() const override {
+    return view::Needs{.normals = true}.with(settings_.occluder, false);
+  }
   OutputKinds output_kinds() const override {
     return {.bent_normal = true,
             .cone_angle = true,
@@ -91,6 +93,7 @@ class HemisphereMethod final : public Method {
     frame_.normal[0] = g.normal_x.data();
     frame_.normal[1] = g.normal_y.data();
     frame_.normal[2] = g.normal_z.data();
+    frame_.back = frame_.matter == view::Matter::kWithBack ? g.back_depth.data() : nullptr;
     frame_.stride = g.depth.stride();
     frame_.width = g.width;
     frame_.height = g.height;

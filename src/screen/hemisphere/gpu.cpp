@@ -30,7 +30,10 @@ Status make_program(const HemisphereSettings& settings, const Frame& frame, Prog
   const Demands demands{.method = "hemisphere", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool cosine = settings.weighting == RayWeighting::kCosine;
+  if (Status s = check_back_depth(settings.occluder, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, true, program);
+  const bool with_back = f.matter == view::Matter::kWithBack;
+  const int back = with_back ? add_back_depth(frame, g, program) : g.depth;
   program->add_table(tables_of(f));
   // Directions have uniform weights; so has then the visibility that is summed with them.
   const SumRegions sums =
@@ -42,7 +45,7 @@ Status make_program(const HemisphereSettings& settings, const Frame& frame, Prog
                               {io::kTests, f.tests},
                               {io::kInterleave, f.interleave},
                               {io::kQuadratic, f.quadratic},
-                              {io::kThickness, f.thickness > 0},
+                              {io::kMatter, static_cast<int>(f.matter)},
                               {io::kOpen, open},
                               {io::kCosine, cosine},
                               {io::kDirections, frame.directions()}},
@@ -50,7 +53,8 @@ Status make_program(const HemisphereSettings& settings, const Frame& frame, Prog
                           {io::kNormalsAt, g.normals},
                           {io::kTablesAt, program->table_region},
                           {io::kOpenAt, open ? sums.open : sums.any()},
-                          {io::kDirectionsAt, sums.any()}},
+                          {io::kDirectionsAt, sums.any()},
+                          {io::kBackAt, back}},
                 .size = frame.visible(),
                 .radius = f.radius,
                 .thickness = f.thickness});

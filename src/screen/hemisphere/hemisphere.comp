@@ -29,8 +29,12 @@ bool behind(HemisphereReceiver r, EyeDirection w, float cosine, float t) {
   }
   const float a = (u + 0.5 - view.center_u) * view.scale_x;
   const float b = (view.center_v - 0.5 - v) * view.scale_y;
-  return is_behind(r, cosine, t, seen.z, a, b, depth[int(v) * view.width + int(u)], parallel,
-                   kThickness, view.thickness);
+  const int at = int(v) * view.width + int(u);
+  const float front = depth[at];
+  float back = front;
+  if (kMatter == kOfThickness) back = back_of_thickness(front, view.thickness, a, b, parallel);
+  if (kMatter == kWithBack) back = max(backs[at], front);
+  return is_behind(r, cosine, t, seen.z, a, b, front, parallel, kMatter != kSolid, back);
 }
 
 // V of a direction: 1 - rho at the first point that is behind.

@@ -61,10 +61,10 @@ image_of_point(LEAF_IN(HemisphereReceiver) r, LEAF_IN(EyeDirection) w, Real t, R
 // Whether the point at distance t along w, at depth z, lies behind the texel whose ray is (a, b,
 // -1) and whose depth is `depth`. The point is moved to that ray, parallel to the tangent plane, so
 // that a plane of any tilt never occludes itself: with q the surface point on that ray, it is
-// behind if n.(q - p) > t n.w.
+// behind if n.(q - p) > t n.w. The texel's matter, if it is `finite`, ends at depth `back`.
 LEAF(Truth)
 is_behind(LEAF_IN(HemisphereReceiver) r, Real cosine, Real t, Real z, Real a, Real b, Real depth,
-          bool parallel, bool finite, Real thickness) {
+          bool parallel, bool finite, Real back) {
   Real across = leaf_fma(r.n.x, a, r.n.y * b);
   // n.q, and how the height above the plane grows with depth along the texel's ray.
   Real slope = parallel ? leaf_neg(r.n.z) : across - r.n.z;
@@ -74,10 +74,7 @@ is_behind(LEAF_IN(HemisphereReceiver) r, Real cosine, Real t, Real z, Real a, Re
   Truth bounded = leaf_less(slope, real(0.0f));
   Truth behind = leaf_either(leaf_both(bounded, leaf_less(height, q)),
                              leaf_both(leaf_not(bounded), leaf_less(depth, z)));
-  if (finite) {
-    Real back = depth + (parallel ? thickness : depth_of_thickness(thickness, a, b));
-    behind = leaf_both(behind, leaf_less(z, back));
-  }
+  if (finite) behind = leaf_both(behind, leaf_less(z, back));
   return behind;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "filters/interleaved/kernel.h"
+#include "view/matter.h"
 
 namespace obscura::hemisphere {
 
@@ -23,7 +24,9 @@ struct Frame {
 
   float radius = 0;
   bool quadratic = false;
-  float thickness = 0;  // 0: solid
+  view::Matter matter = view::Matter::kSolid;
+  float thickness = 0;          // of kThickness
+  const float* back = nullptr;  // of kWithBack, like depth
   int samples = 0, tests = 0;
   int interleave = 1;
   float cosine[kMaxSamples] = {}, sine[kMaxSamples] = {};  // azimuths

@@ -66,8 +66,14 @@ HWY_INLINE M Behind(const Frame& f, const Receiver& r, const Vector& w, V cosine
 
   const V a = hn::Mul(hn::Sub(hn::Add(uf, half), hn::Set(d, f.center_u)), hn::Set(d, f.scale_x));
   const V b = hn::Mul(hn::Sub(hn::Set(d, f.center_v - 0.5f), vf), hn::Set(d, f.scale_y));
+  V back = depth;
+  if (f.matter == view::Matter::kThickness) {
+    back = leaf::back_of_thickness(depth, hn::Set(d, f.thickness), a, b, f.orthographic);
+  } else if (f.matter == view::Matter::kWithBack) {
+    back = GatherLanes(d, f.back + (f.height / 2) * f.stride, index);
+  }
   const M behind = leaf::is_behind(r, cosine, t, seen.z, a, b, depth, f.orthographic,
-                                   f.thickness > 0, hn::Set(d, f.thickness));
+                                   f.matter != view::Matter::kSolid, back);
   return hn::And(behind, inside);
 }
 

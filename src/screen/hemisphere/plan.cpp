@@ -56,12 +56,15 @@ void set_pattern(const HemisphereSettings& s, hemisphere::Frame* f) {
 
 Status make_plan(const HemisphereSettings& settings, hemisphere::Frame* f) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_sphere(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (Status s = check_sphere(settings.falloff, "hemisphere"); !s.ok()) return s;
+  if (Status s = validate(settings.occluder); !s.ok()) return s;
+  if (settings.occluder.kind == OccluderKind::kLayers) {
+    return unsupported("hemisphere takes the occluders auto, solid, thickness and back-depth");
+  }
   f->radius = std::clamp(settings.falloff.radius, 1e-30f, 1e30f);
   f->quadratic = settings.falloff.kind == FalloffKind::kQuadratic;
-  if (settings.occluder.kind == OccluderKind::kThickness) {
-    f->thickness = settings.occluder.thickness;
-  }
+  f->matter = view::matter_of(settings.occluder);
+  f->thickness = settings.occluder.thickness;
   f->samples = settings.samples;
   f->tests = settings.steps + 1;
   f->interleave = settings.interleave;

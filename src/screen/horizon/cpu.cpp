@@ -19,7 +19,7 @@ class HorizonMethod final : public Method {
   }
 
   view::Needs needs() const override {
-    const bool back = frame_.matter == horizon::Matter::kWithBack;
+    const bool back = frame_.matter == view::Matter::kWithBack;
     return view::Needs{.normals = true}.with(back ? settings_.occluder : Occluder::solid(), false);
   }
   OutputKinds output_kinds() const override {
@@ -31,7 +31,7 @@ class HorizonMethod final : public Method {
 
   Status run(const view::Geometry& g, const Outputs& o, const RunContext& context) override {
     frame_.view = view::make_tap_frame(g, frame_.reach);
-    frame_.back = frame_.matter == horizon::Matter::kWithBack ? g.back_depth.data() : nullptr;
+    frame_.back = frame_.matter == view::Matter::kWithBack ? g.back_depth.data() : nullptr;
     Outputs left = o;
     if (!o.bent_normal.empty() || !o.cone_angle.empty() || !o.uniform_integral.empty()) {
       const Sums sums = classic() ? Sums::kUniform : Sums::kUniformDirections;

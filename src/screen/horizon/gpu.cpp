@@ -33,12 +33,10 @@ Status make_program(const HorizonSettings& settings, const Frame& frame, Program
   const Demands demands{.method = "horizon", .normals = true, .directions = true};
   if (Status s = check(demands, frame.shape); !s.ok()) return s;
   const bool classic = settings.variant == HorizonVariant::kClassic;
-  if (settings.occluder.kind == OccluderKind::kBackDepth && !frame.shape.back_depth) {
-    return invalid_argument("the occluder is back-depth, but the shape has no image of it");
-  }
+  if (Status s = check_back_depth(settings.occluder, frame.shape); !s.ok()) return s;
   const Geometry g = add_geometry(frame, true, program);
   const int back =
-      f.matter == horizon::Matter::kWithBack ? add_back_depth(frame, g, program) : g.depth;
+      f.matter == view::Matter::kWithBack ? add_back_depth(frame, g, program) : g.depth;
   program->add_table(tables_of(f, rho));
   const SumRegions sums = add_sums(frame, !frame.directions(), frame.directions(), program);
   const SliceSums kind = frame.directions() ? SliceSums::kUniform : SliceSums::kVisibility;

@@ -3,6 +3,7 @@
 
 #include "gpu/io.h"
 #include "gpu/rho_words.h"
+#include "view/matter_io.h"
 
 IO_BEGIN(horizon_io)
 IO_THREADS(8, 8);
@@ -13,10 +14,8 @@ IO_CONSTANT(3, bool, kClassic, false);
 IO_CONSTANT(4, int, kFalloff, 1);  // FalloffKind
 IO_CONSTANT(5, bool, kChord, true);
 IO_CONSTANT(6, int, kSums, 0);    // SliceSums
-IO_CONSTANT(7, int, kMatter, 0);  // horizon::Matter
-IO_NUMBER(kSolid, 0);
-IO_NUMBER(kOfThickness, 1);
-IO_NUMBER(kWithBack, 2);
+IO_CONSTANT(7, int, kMatter, 0);  // view::Matter
+OBSCURA_MATTER_KINDS;
 IO_READS(0, Depth, float, depth);
 IO_READS(1, Normals, vec4, normals);
 // Per direction cosine, sine and shift; the same per pixel of the tile; rho's table.

@@ -4,6 +4,7 @@
 #include "filters/interleaved/kernel.h"
 #include "math/falloff.h"
 #include "math/slice_sums.h"
+#include "view/matter.h"
 #include "view/tap_frame.h"
 
 namespace obscura::horizon {
@@ -23,12 +24,9 @@ enum TileValue {
   kTileValues
 };
 
-// Where the matter of a sample ends.
-enum class Matter { kSolid, kThickness, kWithBack };
-
 struct Frame {
   view::TapFrame view;
-  Matter matter = Matter::kSolid;
+  view::Matter matter = view::Matter::kSolid;
   float thickness = 0;          // of kThickness, along the view ray
   const float* back = nullptr;  // of kWithBack, like view.depth
   const math::Rho* rho = nullptr;

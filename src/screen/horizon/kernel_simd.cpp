@@ -179,7 +179,7 @@ HWY_INLINE leaf::Obscured SliceOf(const Frame& f, const LineReceiver& r, const I
 // Where the matter of texels ends that begins at `depth`: a thickness behind, or at `given`.
 HWY_INLINE V BackOf(const Frame& f, V depth, V given, V a, V b) {
   const D d;
-  if (f.matter == Matter::kThickness) {
+  if (f.matter == view::Matter::kThickness) {
     return leaf::back_of_thickness(depth, hn::Set(d, f.thickness), a, b,
                                    f.view.camera.orthographic);
   }
@@ -259,7 +259,7 @@ void Slices(const Frame& f, int row, int width, Rows out) {
 template <SliceSums kSums>
 void SlicesOf(const Frame& f, int row, int width, Rows out) {
   math::with_falloff_kind(f.rho->kind, [&]<FalloffKind kKind>() {
-    if (f.matter != Matter::kSolid) {
+    if (f.matter != view::Matter::kSolid) {
       Slices<kKind, false, true, kSums>(f, row, width, out);
     } else if (kKind == FalloffKind::kConstant || !f.chord) {
       Slices<kKind, false, false, kSums>(f, row, width, out);

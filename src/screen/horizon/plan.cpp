@@ -72,9 +72,7 @@ Status make_plan(const HorizonSettings& settings, HorizonPlan* plan) {
   horizon::Frame& f = plan->frame;
   f.reach = classic ? settings.falloff.radius : reach_of(plan->rho);
   f.chord = settings.profile == SlabProfile::kAdaptiveChord;
-  f.matter = classic || occluder == OccluderKind::kSolid ? horizon::Matter::kSolid
-             : occluder == OccluderKind::kThickness      ? horizon::Matter::kThickness
-                                                         : horizon::Matter::kWithBack;
+  f.matter = classic ? view::Matter::kSolid : view::matter_of(settings.occluder);
   f.thickness = settings.occluder.thickness;
   f.directions = settings.directions;
   f.steps = settings.steps;

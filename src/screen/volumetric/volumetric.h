@@ -14,7 +14,10 @@ namespace obscura {
 template <class Settings>
 Status check_volumetric(const Settings& settings) {
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_sphere(settings.falloff, settings.occluder); !s.ok()) return s;
+  if (Status s = check_sphere(settings.falloff, settings.occluder, "volumetric obscurance");
+      !s.ok()) {
+    return s;
+  }
   return validate(settings.dual);
 }
 

@@ -165,13 +165,34 @@ TEST(Hemisphere, ThinOccludersLetLightPassBehindThem) {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 32; ++x) p.depth[y * 64 + x] = 49;
   }
-  const HemisphereSettings solid{.falloff = {.kind = FalloffKind::kConstant, .radius = 2}};
+  const HemisphereSettings solid{.falloff = {.kind = FalloffKind::kConstant, .radius = 2},
+                                 .occluder = Occluder::solid()};
   HemisphereSettings thin = solid;
   thin.occluder = Occluder::of_thickness(0.05f);
   ASSERT_TRUE(p.run(solid).ok());
   const float with_solid = p.visibility[32 * 64 + 33];
   ASSERT_TRUE(p.run(thin).ok());
-  EXPECT_GT(p.visibility[32 * 64 + 33], with_solid + 0.1f);
+  const float with_thin = p.visibility[32 * 64 + 33];
+  EXPECT_GT(with_thin, with_solid + 0.1f);
+  // The same matter as an image of where it ends.
+  std::vector<float> back = p.depth;
+  for (float& b : back) b += 0.05f;
+  p.field.back_depth = {back.data(), 64, 64};
+  thin.occluder = Occluder::back_depth();
+  ASSERT_TRUE(p.run(thin).ok());
+  EXPECT_NEAR(p.visibility[32 * 64 + 33], with_thin, 1e-6);
+  thin.occluder = Occluder::automatic();
+  ASSERT_TRUE(p.run(thin).ok());
+  EXPECT_NEAR(p.visibility[32 * 64 + 33], with_thin, 1e-6);
+  p.field.back_depth = {};
+  thin.occluder = Occluder::back_depth();
+  EXPECT_NE(p.run(thin).message().find("back_depth is missing"), std::string::npos);
+  thin.occluder = Occluder::of_layers(2);
+  EXPECT_NE(p.run(thin).message().find("hemisphere takes"), std::string::npos);
+  EXPECT_NE(p.run({.falloff = {.kind = FalloffKind::kExponential}})
+                .message()
+                .find("hemisphere takes constant or quadratic"),
+            std::string::npos);
 }
 
 TEST(Hemisphere, BitsDoNotDependOnThreads) {

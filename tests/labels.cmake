@@ -30,6 +30,7 @@ set_tests_properties(
   ThreadsTest.Light
   LightCommandTest.ComparatorsLightThePicture
   LightCommandTest.KeepsTheConvolution
+  WorkBoundsTest.LongImages
   PROPERTIES LABELS slow)
 set_tests_properties(
   FarFieldDirections.AgreeWithTracedOnes

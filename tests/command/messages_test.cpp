@@ -65,7 +65,7 @@ TEST_F(MessagesTest, Spacings) {
   expect_failure(raw + "--raw-spacing 1,nan,1", 2, "three numbers in [1e-12, 1e12]");
   // A grid of cubes that is turned to the light grows with the square of the spacings' ratio.
   expect_failure(raw + "--raw-spacing 1,1,1000 --light shadow:0,0,-1", 2, "more alike",
-                 "ulimit -v 1500000; timeout 10");
+                 address_limit() + "timeout 10");
   EXPECT_EQ(run(raw + "--raw-spacing 1,1,3 --light shadow:0,0,-1 -q").code, 0);
 }
 

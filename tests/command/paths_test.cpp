@@ -79,6 +79,7 @@ TEST_F(PathsTest, DevicesAreNotRead) {
     const bool volume = e == "nrrd" || e == "nii" || e == "vdb" || e == "raw";
     const CommandResult r = run(std::string(volume ? "volume " : "ao ") + name + " -o out.exr" +
                                 (e == "raw" ? " --raw-size 9x9x9" : ""));
+    if (r.err.find("this build has no OpenVDB") != r.err.npos) continue;
     EXPECT_EQ(r.code, 3) << name << r.err;
     EXPECT_TRUE(r.err.find("device") != r.err.npos || r.err.find("not a file") != r.err.npos)
         << r.err;

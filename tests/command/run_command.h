@@ -28,6 +28,16 @@ inline std::string read_file(const std::string& path) {
   return text.str();
 }
 
+// Shell text that limits the addresses of a command to 1.5 GB. Sanitizers take far more for
+// themselves, so that they run without.
+inline std::string address_limit() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return "";
+#else
+  return "ulimit -v 1500000; ";
+#endif
+}
+
 // A test that runs the obscura command in a folder of its own.
 class CommandTest : public testing::Test {
  protected:

@@ -21,8 +21,8 @@ class WorkBoundsTest : public CommandTest {
   }
 };
 
-// Addresses that a command may take, in kB; the limits are far below what a square needs.
-constexpr const char* kLimits = "ulimit -v 1500000; timeout 60";
+// Far below what a square needs.
+const std::string kLimits = address_limit() + "timeout 60";
 
 TEST_F(WorkBoundsTest, LongImages) {
   write_rough("wide.pfm", 65535, 1);

@@ -10,8 +10,7 @@ LEAF(Real) slack_of_samples(Real footprint, Real between) {
 }
 
 // The matter that a sample stands for, from `p` at `depth` to `back`. It lies `pixels` along the
-// line and stands for the line's pixels half the way to the samples beside it, which are `between`
-// away; for its texel at least.
+// line, `between` of them behind the sample before, and is as wide as that, or as its texel.
 LEAF(MatterBox)
 line_box(LEAF_IN(Slice) s, LEAF_IN(LinePoint) p, Real pixels, Real between, Real depth, Real back,
          bool parallel) {

@@ -8,35 +8,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/random.h"
-#include "hwy/targets.h"
 #include "screen/far_field/scan_kernel.h"
-#include "tests/property/synthetic.h"
+#include "tests/unit/screen/far_field/rough_field.h"
 
 namespace obscura::far_field {
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity();
-
-// Surfaces at a few depths, rough, with holes to the background.
-view::Geometry rough(int width, int height, bool orthographic, std::uint64_t seed) {
-  Random random(seed);
-  view::Geometry g;
-  g.width = width;
-  g.height = height;
-  g.camera = synthetic::random_camera(width, height, orthographic, &random);
-  g.depth.resize(width, height);
-  g.back_depth.resize(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double depth = 4 + (x / 5 * 7 + y / 4 * 3) % 3 + 0.1 * random.uniform();
-      g.depth(x, y) = random.uniform() < 0.15 ? kInf : static_cast<float>(depth);
-      g.back_depth(x, y) = g.depth(x, y) + static_cast<float>(random.uniform() < 0.5 ? 0.2 : 1.3);
-    }
-  }
-  g.max_depth = 7;
-  return g;
-}
 
 // One row of a scanned line.
 struct Step {
@@ -376,45 +352,6 @@ TEST(Scan, SumsAreAsPreciseAsTheDepths) {
   EXPECT_LT(worst_outward, 1e-4);
   EXPECT_GT(worst_float, 2e-5);
   EXPECT_EQ(count[kPad + kLines], kLines);
-}
-
-TEST(Scan, EveryTargetFindsTheSame) {
-  const auto executor = make_executor(1);
-  const view::Geometry g = rough(97, 41, false, 33);
-  FarFieldSettings settings{.occluder = Occluder::solid()};
-  settings.directions = 5;
-  const std::vector<Direction> directions = make_directions(settings);
-  for (const Occluder& occluder : {Occluder{}, Occluder::of_thickness(0.3f)}) {
-    std::vector<float> first;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      std::vector<float> found;
-      for (const Direction& d : directions) {
-        Plane plane;
-        fill_plane(g, occluder, d.transposed, sideways_reach(directions, settings.interval) + 32, 1,
-                   *executor, &plane);
-        ScanBuffer buffer;
-        scan(plane, d, {settings.interval, -1}, *executor, &buffer);
-        for (int level = 0; level < buffer.levels(); ++level) {
-          for (int strip = 0; strip < buffer.strips(level); ++strip) {
-            const RawStrip raw = buffer.raw(level, strip, 0);
-            const auto& [begin, end] = raw.window;
-            found.insert(found.end(), raw.nearest + begin, raw.nearest + end);
-            found.insert(found.end(), raw.slanted + begin, raw.slanted + end);
-          }
-        }
-      }
-      if (first.empty()) first = found;
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        if (std::isfinite(first[i])) {
-          ASSERT_NEAR(found[i], first[i], 4e-6 * std::abs(first[i])) << hwy::TargetName(target);
-        } else {
-          ASSERT_EQ(found[i], first[i]) << hwy::TargetName(target);
-        }
-      }
-    }
-  }
-  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace

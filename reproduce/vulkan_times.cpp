@@ -50,12 +50,24 @@ std::vector<Row> far_field_rows(bool large) {
       {"fast", fast},
       {"balanced", balanced},
       {"balanced, with directions", balanced, true},
+      {"default, any matter", FarFieldSettings{}},
       {"mipmap, K = 16", mipmap, false, large ? 31.5 : 19.2, kRadeon}};
   for (const auto& [interval, ms] : {std::pair{20, 6.06}, {5, 8.89}}) {
     FarFieldSettings s = far_field(8, false, 1);
     s.interval = interval;
     const std::string name = fmt::format("far field alone, K = 8x2, B0 = {}", interval);
     if (!large) rows.push_back({name, s, false, ms, kRadeon});
+  }
+  if (large) {
+    HorizonSettings horizon;
+    rows.push_back({"horizon, default, any matter", horizon});
+    horizon.occluder = Occluder::solid();
+    rows.push_back({"horizon, solid", horizon});
+    horizon.directions = 4;
+    horizon.resolution = Resolution::kHalf;
+    rows.push_back({"horizon, 4 x 8, half resolution, solid", horizon});
+    horizon.occluder = Occluder::automatic();
+    rows.push_back({"horizon, 4 x 8, half resolution, any matter", horizon});
   }
   return rows;
 }

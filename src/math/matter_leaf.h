@@ -33,6 +33,12 @@ directions_between(LEAF_IN(Slice) s, LEAF_IN(SectorEdge) low, LEAF_IN(SectorEdge
   return b;
 }
 
+// Sectors of a piece for which rho at its middle alone is enough.
+const float kNarrowPiece = 4.0f;
+
+// Of a sector: what rounding may do to a place.
+const float kSectorSlack = 0.01f;
+
 // rho of a line's matter at a share t of the chord between two directions.
 LEAF(Real)
 rho_between_edges(LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low, LEAF_IN(SectorEdge) high,
@@ -55,10 +61,14 @@ mark_sectors(LEAF_IN(Slice) s, LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low
   if (!leaf_any_bit(fresh)) return;
   Real count = leaf_count_bits(fresh);
   Truth counts = leaf_less(real(0.0f), count);
-  // rho at two directions between the edges, a quarter and three quarters on.
-  Real mean = real(0.5f / kSectors) * (rho_between_edges(line, low, high, real(0.25f)) +
-                                       rho_between_edges(line, low, high, real(0.75f)));
-  Real piece = (count * m.span) * mean;
+  Real mean = rho_between_edges(line, low, high, real(0.5f));
+  Truth wide = leaf_less(real(kNarrowPiece), high.place - low.place);
+  if (leaf_any(wide)) {
+    Real halves = rho_between_edges(line, low, high, real(0.25f)) +
+                  rho_between_edges(line, low, high, real(0.75f));
+    mean = leaf_select(wide, real(0.5f) * halves, mean);
+  }
+  Real piece = (count * m.each) * mean;
   m.sum = m.sum + leaf_where(counts, piece);
   if (kSums != kSumVisibility) {
     Truth above = leaf_both(leaf_less(low.place, m.top.place), leaf_less(m.top.place, high.place));
@@ -68,6 +78,52 @@ mark_sectors(LEAF_IN(Slice) s, LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low
     m.sum_solid = m.sum_solid + leaf_where(counts, piece * w.solid);
   }
   m.covered = leaf_union(m.covered, fresh);
+}
+
+// The end of a box, where that is above what is covered all the way down.
+LEAF(SectorEdge)
+find_end(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth needed, LEAF_IN(Sectors) m) {
+  SectorEdge end = m.full;
+  Sight sight = sight_of(box.end_x, box.end_y);
+  if (leaf_any(leaf_both(needed, leaf_less(m.full.cosine, sight.cosine)))) {
+    end = find_sector(s, m, box.end_x, sight);
+  }
+  return end;
+}
+
+// Where the corner of a box's front stands that is nearest to the zenith: in front of the receiver
+// its near side, behind it the far one.
+LEAF(Real) front_corner(Real x, Real y, Real reach) {
+  return leaf_max(leaf_if_negative(y, x + reach, x - reach), real(0.0f));
+}
+// The direction of the point before, no farther from the zenith than where all is covered.
+LEAF(SectorEdge) last_edge(LEAF_IN(Sectors) m) {
+  return select_sector_edge(leaf_less(m.last.place, m.full.place), m.last, m.full);
+}
+// Whether a front seen so covers anything new, with the surface that joins it to the point before.
+// What hardly rises above what is covered, as all of a plane does, is left to the next that does.
+LEAF(Truth) rises_above(LEAF_IN(Sectors) m, LEAF_IN(Sight) front, Truth joined) {
+  return leaf_either(leaf_less(m.full.cosine + real(kHorizonSlack), front.cosine),
+                     leaf_both(joined, leaf_less(m.last.place, m.full.place)));
+}
+// Whether the next point may cover anything new in any lane, wherever its matter ends: fronts
+// within `slack` touch in any case. If not, pass_point() does what add_matter() does.
+LEAF(bool)
+may_cover(LEAF_IN(Sectors) m, Real x, Real y, Real reach, Real depth, Truth next, Real slack,
+          Truth valid) {
+  Truth joined =
+      leaf_both(m.joined, leaf_both(next, leaf_less_equal(leaf_abs(depth - m.depth), slack)));
+  Sight front = sight_of(leaf_select(joined, x, front_corner(x, y, reach)), y);
+  return leaf_any(leaf_both(valid, rises_above(m, front, m.joined)));
+}
+// Leaves m.back as it is.
+LEAF(void) pass_point(Real x, Real y, Real depth, Real row, Truth valid, LEAF_INOUT(Sectors) m) {
+  m.x = leaf_select(valid, x, m.x);
+  m.y = leaf_select(valid, y, m.y);
+  m.depth = leaf_select(valid, depth, m.depth);
+  m.last_row = leaf_select(valid, row, m.last_row);
+  m.last.place = leaf_select(valid, real(kSectors), m.last.place);
+  m.joined = valid;
 }
 
 // Adds the next point outwards. It fills what is between the corners of its box, and where it
@@ -80,25 +136,28 @@ add_matter(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth next, Real slack, Rea
   Real x = box.x, y = box.y;
   Real gap = leaf_max(box.depth, m.depth) - leaf_min(box.back, m.back);
   Truth joined = leaf_both(m.joined, leaf_both(next, leaf_less_equal(gap, slack)));
-  // In front of the receiver the near side stands nearest to the zenith, behind it the far side.
-  Real corner = leaf_max(leaf_if_negative(y, x + box.reach, x - box.reach), real(0.0f));
-  SectorEdge front = find_sector(s, m, leaf_select(joined, x, corner), y);
-  SectorEdge low = front;  // nearest to the zenith
-  SectorEdge high = find_sector(s, m, box.end_x, box.end_y);
-  low = select_sector_edge(leaf_both(joined, leaf_less(m.last.place, low.place)), m.last, low);
-  high = select_sector_edge(leaf_both(joined, leaf_less(high.place, m.last.place)), m.last, high);
-  mark_sectors(s, matter_line(s, m.x, m.y, x, y, joined), low, high, leaf_all_bits(), dither, valid,
-               m);
-  m.x = leaf_select(valid, x, m.x);
-  m.y = leaf_select(valid, y, m.y);
-  m.depth = leaf_select(valid, box.depth, m.depth);
-  m.back = leaf_select(valid, box.back, m.back);
-  m.last_row = leaf_select(valid, box.last_row, m.last_row);
-  m.last = select_sector_edge(valid, front, m.last);
-  if (kSums != kSumVisibility) {
-    m.top = select_sector_edge(leaf_both(valid, leaf_less(low.place, m.top.place)), low, m.top);
+  Real front_x = leaf_select(joined, x, front_corner(x, y, box.reach));
+  Sight sight = sight_of(front_x, y);
+  Truth rises = leaf_both(valid, rises_above(m, sight, joined));
+  SectorEdge front = m.full;
+  if (leaf_any(rises)) {
+    SectorEdge last = last_edge(m);
+    front = select_sector_edge(rises, find_sector(s, m, front_x, sight), front);
+    SectorEdge high = find_end(s, box, rises, m);  // farthest from the zenith
+    SectorEdge low =
+        select_sector_edge(leaf_both(joined, leaf_less(last.place, front.place)), last, front);
+    high = select_sector_edge(leaf_both(joined, leaf_less(high.place, last.place)), last, high);
+    mark_sectors(s, matter_line(s, m.x, m.y, x, y, joined), low, high, leaf_all_bits(), dither,
+                 rises, m);
+    Truth down = leaf_both(rises, leaf_less(m.full.place, high.place + real(kSectorSlack)));
+    m.full = select_sector_edge(down, low, m.full);
+    if (kSums != kSumVisibility) {
+      m.top = select_sector_edge(leaf_both(rises, leaf_less(low.place, m.top.place)), low, m.top);
+    }
   }
-  m.joined = valid;
+  pass_point(x, y, box.depth, box.last_row, valid, m);
+  m.back = leaf_select(valid, box.back, m.back);
+  m.last = select_sector_edge(rises, front, m.last);
 }
 
 // Adds matter that fills a `share` of its box only, evenly; `turn` tells apart which sectors it
@@ -107,9 +166,12 @@ add_matter(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth next, Real slack, Rea
 LEAF(void)
 add_spread(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Real share, Real dither, int turn, Truth valid,
            LEAF_INOUT(Sectors) m) {
-  Real corner = leaf_max(leaf_if_negative(box.y, box.x + box.reach, box.x - box.reach), real(0.0f));
-  SectorEdge low = find_sector(s, m, corner, box.y);
-  SectorEdge high = find_sector(s, m, box.end_x, box.end_y);
+  Real corner = front_corner(box.x, box.y, box.reach);
+  Sight sight = sight_of(corner, box.y);
+  Truth rises = leaf_both(valid, leaf_less(m.full.cosine, sight.cosine));
+  if (!leaf_any(rises)) return;
+  SectorEdge low = find_sector(s, m, corner, sight);
+  SectorEdge high = find_end(s, box, rises, m);
   Bits among = leaf_spread_bits(leaf_fma(share, real(kSectors), dither), turn);
-  mark_sectors(s, view_line(s, box.x, box.y), low, high, among, dither, valid, m);
+  mark_sectors(s, view_line(s, box.x, box.y), low, high, among, dither, rises, m);
 }

@@ -39,10 +39,12 @@ end_box(LEAF_IN(Slice) s, Real before, Real behind, bool parallel, LEAF_INOUT(Ma
 // What a slice's matter has covered so far (math/matter_leaf.h).
 struct Sectors {
   Bits covered;
-  Real first, span;        // F where the hemisphere begins, and over it
+  Real first, per_span;    // F where the hemisphere begins, and 1 over F over all of it
+  Real each;               // F over a sector
   Real x, y, depth, back;  // the point before: its place, and where its matter begins and ends
   Real last_row;
   SectorEdge last;  // its direction
+  SectorEdge full;  // all that is farther from the zenith than this is covered
   Truth joined;     // there is a point before
   Real sum;
   Real sum_x, sum_y, sum_solid;  // directions, see SliceSums
@@ -54,7 +56,9 @@ LEAF(Sectors) start_sectors(LEAF_IN(Slice) s, bool from_receiver, Real depth, Re
   Sectors m;
   m.covered = leaf_no_bits();
   m.first = leaf_if_negative(s.nz, s.edge_integral, zero);
-  m.span = leaf_max(end.integral - m.first, real(1e-12f));
+  Real span = leaf_max(end.integral - m.first, real(1e-12f));
+  m.per_span = leaf_reciprocal(span);
+  m.each = span * real(1.0f / kSectors);
   m.x = zero;
   m.y = zero;
   m.depth = depth;
@@ -65,6 +69,7 @@ LEAF(Sectors) start_sectors(LEAF_IN(Slice) s, bool from_receiver, Real depth, Re
   m.last.cosine = end.cosine;
   m.last.angle = end.angle;
   m.last.place = real(kSectors);
+  m.full = m.last;
   m.top = m.last;
   m.joined = leaf_truth(from_receiver);
   m.sum = zero;
@@ -74,16 +79,25 @@ LEAF(Sectors) start_sectors(LEAF_IN(Slice) s, bool from_receiver, Real depth, Re
   return m;
 }
 
-LEAF(SectorEdge) find_sector(LEAF_IN(Slice) s, LEAF_IN(Sectors) m, Real x, Real y) {
-  Real one = real(1.0f);
-  Real inverse = leaf_inverse_sqrt(leaf_max(leaf_fma(x, x, y * y), real(kTiny)));
-  Real cosine = leaf_min(leaf_max(y * inverse, real(-1.0f)), one);
-  Edge edge = clip_to_hemisphere(s, x * inverse, cosine, fast_acos(cosine));
-  Real unit = (edge.integral - m.first) * leaf_reciprocal(m.span);
+// How a point is seen: 1 over its distance, and the cosine of its zenith angle.
+struct Sight {
+  Real inverse, cosine;
+};
+LEAF(Sight) sight_of(Real x, Real y) {
+  Sight sight;
+  sight.inverse = leaf_inverse_sqrt(leaf_max(leaf_fma(x, x, y * y), real(kTiny)));
+  sight.cosine = leaf_min(leaf_max(y * sight.inverse, real(-1.0f)), real(1.0f));
+  return sight;
+}
+// The direction to a point, no farther from the zenith than where all is covered.
+LEAF(SectorEdge)
+find_sector(LEAF_IN(Slice) s, LEAF_IN(Sectors) m, Real x, LEAF_IN(Sight) sight) {
+  Edge edge = clip_to_hemisphere(s, x * sight.inverse, sight.cosine, fast_acos(sight.cosine));
+  Real unit = (edge.integral - m.first) * m.per_span;
   SectorEdge e;
   e.sine = edge.sine;
   e.cosine = edge.cosine;
   e.angle = edge.angle;
-  e.place = real(kSectors) * leaf_min(leaf_max(unit, real(0.0f)), one);
-  return e;
+  e.place = real(kSectors) * leaf_max(unit, real(0.0f));
+  return select_sector_edge(leaf_less(e.place, m.full.place), e, m.full);
 }

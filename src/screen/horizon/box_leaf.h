@@ -9,16 +9,19 @@ LEAF(Real) slack_of_samples(Real footprint, Real between) {
   return real(kJoinedPerPixel) * footprint * between;
 }
 
-// The matter that a sample stands for, from `p` at `depth` to `back`. It lies `pixels` along the
-// line, `between` of them behind the sample before, and is as wide as that, or as its texel.
+// Half the width along the tangent of the matter that a sample stands for, which lies `between`
+// pixels behind the sample before and at `distance` (1 where rays are parallel): it is as wide as
+// that, or as its texel.
+LEAF(Real) reach_of_sample(LEAF_IN(ImageLine) line, Real between, Real distance) {
+  return (real(0.5f) * leaf_max(between, real(1.0f))) * (line.per_pixel * distance);
+}
+// This matter, from `p` at `depth` to `back`.
 LEAF(MatterBox)
-line_box(LEAF_IN(Slice) s, LEAF_IN(LinePoint) p, Real pixels, Real between, Real depth, Real back,
-         bool parallel) {
-  Real width = leaf_max(between, real(1.0f));
+line_box(LEAF_IN(Slice) s, LEAF_IN(LinePoint) p, Real reach, Real depth, Real back, bool parallel) {
   MatterBox box;
   box.x = p.x;
   box.y = p.y;
-  box.reach = (real(0.5f) * width) * (p.x / leaf_max(pixels, real(1e-6f)));
+  box.reach = reach;
   box.first_row = real(0.0f);
   box.last_row = real(0.0f);
   box.depth = depth;

@@ -76,8 +76,10 @@ Obscured matter_slice(LineReceiver r, ImageLine line, Slice s, float shift, floa
     }
     const float front = depth[t.index];
     const float back = back_of(front, t.index, vec2(r.a, r.b) + t.k);
-    const MatterBox box = line_box(s, p, t.pixels, between, front, back, parallel);
-    const float slack = slack_of_samples(parallel ? footprint : footprint * front, between);
+    const float distance = parallel ? r.distance : front;
+    const MatterBox box =
+        line_box(s, p, reach_of_sample(line, between, distance), front, back, parallel);
+    const float slack = slack_of_samples(footprint * distance, between);
     add_matter(s, box, true, slack, shift - 0.5, true, m);
   }
   return finish_sectors(m);

@@ -84,12 +84,12 @@ HWY_INLINE Turn MakeTurn(const Frame& f, int row, int i, int k) {
           hn::Sub(shift, hn::Floor(shift))};
 }
 
-// A sample's texel: its place among all, its depth, how many pixels away, on a line and from the
-// receiver, and how many farther than the sample before.
+// A sample's texel: its place among all, its depth, how many pixels away, and how many farther
+// along the line than the sample before.
 struct Texel {
   const std::int32_t* index;
   V depth, ku, kv;
-  V pixels, between;  // of kLengths only
+  V between;  // of kLengths only
 };
 
 // The surface points at the samples along a line, one after the other, for add(point, texel). Their
@@ -110,7 +110,7 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
   const VI middle = hn::Set(di, f.view.height / 2);  // rows count from there, as taps' do
   HWY_ALIGN std::int32_t index[kBatch][kMaxLanes];
   HWY_ALIGN float offset[2][kBatch][kMaxLanes];
-  HWY_ALIGN float lengths[2][kBatch][kMaxLanes];
+  HWY_ALIGN float between[kBatch][kMaxLanes];
   V before = zero;
   for (int first = 0; first < f.steps; first += kBatch) {
     const int count = std::min(kBatch, f.steps - first);
@@ -126,19 +126,15 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
       hn::Store(hn::Mul(hn::Sub(x, r.u), scale_u), d, offset[0][j]);
       hn::Store(hn::Mul(hn::Sub(y, r.v), scale_v), d, offset[1][j]);
       if constexpr (kLengths) {
-        hn::Store(pixels, d, lengths[0][j]);
-        hn::Store(hn::Sub(pixels, before), d, lengths[1][j]);
+        hn::Store(hn::Sub(pixels, before), d, between[j]);
         before = pixels;
       }
     }
     for (int j = 0; j < count; ++j) {
       const V q = om::GatherLanes(d, Base(f.view), index[j]);
       const V ku = hn::Load(d, offset[0][j]), kv = hn::Load(d, offset[1][j]);
-      Texel texel{index[j], q, ku, kv, zero, zero};
-      if constexpr (kLengths) {
-        texel.pixels = hn::Load(d, lengths[0][j]);
-        texel.between = hn::Load(d, lengths[1][j]);
-      }
+      Texel texel{index[j], q, ku, kv, zero};
+      if constexpr (kLengths) texel.between = hn::Load(d, between[j]);
       add(leaf::line_point(r, line, ku, kv, q, c.orthographic), texel);
     }
   }
@@ -186,12 +182,14 @@ HWY_INLINE V BackOf(const Frame& f, V depth, V given, V a, V b) {
   return hn::Max(hn::Min(given, hn::Set(d, leaf::kFarBack)), depth);
 }
 
-// The same where matter has an end; `own` is where the receiver's does.
+// The same where matter has an end; `own` is where the receiver's does. Where matter ends is looked
+// up only where a point may cover anything: behind what rises, for it and for the point before.
 template <FalloffKind kKind, SliceSums kSums>
 HWY_INLINE leaf::Obscured MatterSliceOf(const Frame& f, const LineReceiver& r,
                                         const ImageLine& line, V shift, const leaf::Slice& slice,
                                         V own) {
   const D d;
+  const DI di;
   const Camera& c = f.view.camera;
   const bool parallel = c.orthographic;
   const V one = hn::Set(d, 1.0f);
@@ -200,15 +198,29 @@ HWY_INLINE leaf::Obscured MatterSliceOf(const Frame& f, const LineReceiver& r,
   const float* backs = f.back ? f.back + (f.view.height / 2) * f.view.stride : nullptr;
   leaf::SliceIntegral<kKind, true, kSums> slices(*f.rho);
   leaf::Sectors m = leaf::start_sectors(slice, true, r.z, own);
-  auto add = [&](const LinePoint& p, const Texel& t) HWY_ATTR {
+  HWY_ALIGN std::int32_t passed[kMaxLanes];  // texels of a point that was passed without its back
+  bool has_passed = false;
+  auto add = [&](const LinePoint& p, const Texel& t) HWY_ATTR __attribute__((always_inline)) {
+    const M always = leaf::leaf_truth(true);
     const V depth = hn::IfThenElse(p.valid, t.depth, one);
-    const V given = backs ? om::GatherLanes(d, backs, t.index) : depth;
-    const V back = BackOf(f, depth, given, hn::Add(r.a, t.ku), hn::Add(r.b, t.kv));
-    const leaf::MatterBox box =
-        leaf::line_box(slice, p, t.pixels, t.between, depth, back, parallel);
-    const V slack =
-        leaf::slack_of_samples(parallel ? footprint : hn::Mul(footprint, depth), t.between);
-    slices.add_matter(slice, box, leaf::leaf_truth(true), slack, dither, p.valid, m);
+    const V distance = parallel ? r.distance : depth;
+    const V reach = leaf::reach_of_sample(line, t.between, distance);
+    const V slack = leaf::slack_of_samples(hn::Mul(footprint, distance), t.between);
+    if (backs && !slices.may_cover(m, p.x, p.y, reach, depth, always, slack, p.valid)) {
+      slices.pass_point(p.x, p.y, depth, hn::Zero(d), p.valid, m);
+      hn::Store(hn::Load(di, t.index), di, passed);
+      has_passed = true;
+      return;
+    }
+    auto back_at = [&](const std::int32_t* index, V front) HWY_ATTR {
+      const V given = backs ? om::GatherLanes(d, backs, index) : front;
+      return BackOf(f, front, given, hn::Add(r.a, t.ku), hn::Add(r.b, t.kv));
+    };
+    if (has_passed) m.back = back_at(passed, m.depth);
+    has_passed = false;
+    const V back = back_at(t.index, depth);
+    const leaf::MatterBox box = leaf::line_box(slice, p, reach, depth, back, parallel);
+    slices.add_matter(slice, box, always, slack, dither, p.valid, m);
   };
   ForPoints<true, true>(f, r, line, shift, add);
   return leaf::finish_sectors(m);

@@ -59,6 +59,7 @@ struct ImageLine {
   Real tu, tv, tw;    // the tangent
   Real nt;            // the normal along it
   Real du, dv, last;  // pixels: unit step, and how far the samples go
+  Real per_pixel;     // how far a pixel goes along the tangent, at distance 1
 };
 // Pixels from `at` to the last texel along a step.
 LEAF(Real) room_to_border(Real at, Real step, Real last) {
@@ -79,6 +80,7 @@ make_image_line(LEAF_IN(LineReceiver) r, Real cosine, Real sine, Real per_scale_
   Real gv = leaf_nfma(r.b, line.tw, line.tv) * per_scale_v;
   Real square = leaf_fma(gu, gu, gv * gv);
   Real inverse = real(1.0f) / leaf_sqrt(square);
+  line.per_pixel = inverse;
   line.du = gu * inverse;
   line.dv = gv * inverse;
   // No farther than the last texels of the image.

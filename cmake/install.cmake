@@ -4,7 +4,7 @@ install(TARGETS obscura EXPORT obscuraTargets
   LIBRARY COMPONENT runtime NAMELINK_COMPONENT development
   ARCHIVE COMPONENT development)
 install(DIRECTORY include/obscura DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-  FILES_MATCHING PATTERN "*.h")
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
 install(EXPORT obscuraTargets NAMESPACE obscura:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/obscura
   COMPONENT development)
 configure_package_config_file(cmake/obscuraConfig.cmake.in obscuraConfig.cmake

@@ -6,7 +6,7 @@ file(MAKE_DIRECTORY ${folder})
 # The words of SHADER, compiled with the rest of the arguments; the header depends on what it reads.
 function(compile words)
   execute_process(
-    COMMAND ${GLSLANG_VALIDATOR} -V --target-env vulkan1.1 -I${INCLUDE} --depfile ${HEADER}.d
+    COMMAND ${GLSLANG_VALIDATOR} -V --target-env vulkan1.1 -I${INCLUDE} -I${INCLUDE}/../include --depfile ${HEADER}.d
       ${ARGN} -o ${HEADER}.spv ${SHADER}
     OUTPUT_VARIABLE output RESULT_VARIABLE result)
   if(result)

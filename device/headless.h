@@ -9,6 +9,7 @@
 
 #include "obscura/depth_field.h"
 #include "obscura/estimator.h"
+#include "obscura/lighting.h"
 
 // Estimators on a Vulkan device without a window: images in and out of ordinary memory.
 namespace obscura::tools {
@@ -62,6 +63,11 @@ class HeadlessVulkan {
   // Of several runs the fastest of each pass counts.
   Status run(const DepthField& field, const MethodSettings& settings, const Outputs& outputs,
              HeadlessTimes* times = nullptr, const HeadlessFrame& frame = {}, int runs = 1);
+
+  // As light() on the CPU; `ms`, which may be null, becomes the time on the device.
+  Status light(const LightingInputs& inputs, const PreconvolvedEnvironment& environment,
+               const LightingSettings& settings, const VectorView<float>& out,
+               double* ms = nullptr);
 
   // Bytes per second that a copy within the device's memory reads and writes.
   Status copy_bandwidth(double* bytes_per_second);

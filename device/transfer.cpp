@@ -54,7 +54,7 @@ void fill(const VectorView<const float>& image, const Buffer& to) {
   }
 }
 
-void upload(VkCommandBuffer commands, const Input& input) {
+void upload(VkCommandBuffer commands, const Input& input, VkImageLayout layout) {
   const Picture& to = input.picture;
   transition(commands, to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
              VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -62,10 +62,9 @@ void upload(VkCommandBuffer commands, const Input& input) {
   const VkBufferImageCopy copy = whole(to);
   vkCmdCopyBufferToImage(commands, input.upload.buffer, to.image,
                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-  transition(commands, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-             VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-             VK_ACCESS_SHADER_READ_BIT);
+  transition(commands, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, layout,
+             VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
 }
 
 void make_writable(VkCommandBuffer commands, const Output& output) {

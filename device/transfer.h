@@ -10,8 +10,9 @@ namespace obscura::tools {
 void fill(const ImageView<const float>& image, const Buffer& to);
 void fill(const VectorView<const float>& image, const Buffer& to);
 
-// Records the copy of an upload buffer into its image, which shaders may then read.
-void upload(VkCommandBuffer commands, const Input& input);
+// Records the copy of an upload buffer into its image, which shaders may then read in this layout.
+void upload(VkCommandBuffer commands, const Input& input,
+            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
 void make_writable(VkCommandBuffer commands, const Output& output);
 

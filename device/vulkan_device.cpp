@@ -135,4 +135,14 @@ Status VulkanDevice::submit() const {
   return r == VK_SUCCESS ? Status() : failed("vkWaitForFences", r);
 }
 
+double VulkanDevice::ms_between(std::uint32_t first, std::uint32_t second) const {
+  std::uint64_t ticks[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    vkGetQueryPoolResults(device_, queries_, i == 0 ? first : second, 1, sizeof(ticks[i]),
+                          &ticks[i], sizeof(ticks[i]),
+                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+  }
+  return static_cast<double>(ticks[1] - ticks[0]) * tick_ns_ * 1e-6;
+}
+
 }  // namespace obscura::tools

@@ -29,6 +29,8 @@ class VulkanDevice {
   VkCommandBuffer commands() const { return commands_; }
   VkQueryPool queries() const { return queries_; }  // kQueries timestamps
   double tick_ns() const { return tick_ns_; }
+  // Between two timestamps of work that has been submitted.
+  double ms_between(std::uint32_t first, std::uint32_t second) const;
   std::uint32_t max_storage_buffer_range() const { return max_storage_buffer_range_; }
 
   // Memory on the device, or of the host and coherent.

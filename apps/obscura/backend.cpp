@@ -81,6 +81,17 @@ Status BackendOptions::run(const AnySettings& settings, const LoadedInput& input
   return run_method(settings, input, outputs, options, once);
 }
 
+Status BackendOptions::light(const LightingInputs& inputs,
+                             const PreconvolvedEnvironment& environment,
+                             const LightingSettings& settings, const VectorView<float>& out,
+                             const RunOptions& options, const MadeOnce& once,
+                             const std::string& ran_on) const {
+#ifdef OBSCURA_WITH_VULKAN
+  if (ran_on != "cpu") return once.vulkan->light(inputs, environment, settings, out);
+#endif
+  return obscura::light(inputs, environment, settings, out, options);
+}
+
 Status print_devices() {
 #ifdef OBSCURA_WITH_VULKAN
   std::vector<tools::VulkanDeviceInfo> devices;

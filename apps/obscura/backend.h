@@ -5,6 +5,7 @@
 
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
+#include "obscura/lighting.h"
 
 namespace obscura::app {
 
@@ -17,6 +18,14 @@ class BackendOptions {
   // As run_method(); `ran_on` becomes "cpu" or the device's name.
   Status run(const AnySettings& settings, const LoadedInput& input, const Outputs& outputs,
              const RunOptions& options, MadeOnce* once, std::string* ran_on) const;
+
+  // As light(), where run() ran last, as `ran_on` says.
+  Status light(const LightingInputs& inputs, const PreconvolvedEnvironment& environment,
+               const LightingSettings& settings, const VectorView<float>& out,
+               const RunOptions& options, const MadeOnce& once, const std::string& ran_on) const;
+
+  // Whether a Vulkan device is asked for.
+  bool vulkan() const { return backend_ != "cpu"; }
 
  private:
   std::string backend_ = "cpu";

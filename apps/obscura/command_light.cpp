@@ -102,6 +102,10 @@ Status run_light(LightCommand& c, bool quiet) {
   if (Status s = one_of("--comparator", c.comparator, {"none", "samples", "importance"}); !s.ok()) {
     return s;
   }
+  if (c.backend.vulkan() && c.comparator != "none") {
+    return invalid_argument(
+        fmt::format("--comparator {} runs on the CPU only; leave out --backend", c.comparator));
+  }
   if (Status s = c.exr.check(c.output); !s.ok()) return s;
   const std::string& output = c.exr.target(c.output);
   if (Status s = tools::check_image_ending(output); !s.ok()) return s;
@@ -174,6 +178,7 @@ void add_light(App& app) {
       ->check(CLI::Range(1, 8))
       ->type_name("N");
   c->method.add_to(command, kDefaultMethod);
+  c->backend.add_to(command);
   c->input.add_to(command);
   add_threads_option(command, &c->threads);
   c->exr.add_to(command);

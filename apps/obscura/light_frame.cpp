@@ -32,7 +32,7 @@ struct Buffers {
 
 Status estimate(const LightCommand& c, const AnySettings& method, const LoadedInput& input,
                 LightingTechnique technique, Buffers* b, const RunOptions& options,
-                MadeOnce* once) {
+                MadeOnce* once, std::string* ran_on) {
   const tools::DepthInput& g = input.depth();
   const DepthField field = input.field();
   Outputs outputs;
@@ -45,10 +45,15 @@ Status estimate(const LightCommand& c, const AnySettings& method, const LoadedIn
     if (technique == LightingTechnique::kBentCone) outputs.cone_angle = b->angle;
   }
   const bool library = std::holds_alternative<MethodSettings>(method);
-  if (library) outputs.normal = b->normal;
-  if (Status s = run_method(method, input, outputs, options, once); !s.ok()) {
+  // A Recorder keeps its normals to itself.
+  if (library && !c.backend.vulkan()) outputs.normal = b->normal;
+  if (Status s = c.backend.run(method, input, outputs, options, once, ran_on); !s.ok()) {
     if (s.code() != StatusCode::kUnsupported || !bent || c.cones != "cosine") return s;
     return {s.code(), fmt::format("{}; --cones mean does with bent-normal", s.message())};
+  }
+  if (library && c.backend.vulkan()) {
+    const Status s = compute(field, HorizonSettings{}, {.normal = b->normal}, options);
+    if (!s.ok()) return s;
   }
   if (!library) {
     for (int y = 0; y < field.visible().height; ++y) {
@@ -102,16 +107,18 @@ Status light_by_comparator(const LightCommand& c, AnySettings method, const Load
   return run_method(method, input, outputs, options, once);
 }
 
-// Light by a technique from what the estimator has left in the buffers.
-Status light_by_technique(const Buffers& buffers, const PreconvolvedEnvironment& lights,
+// Light by a technique from what the estimator has left in the buffers, where it ran.
+Status light_by_technique(const LightCommand& c, const Buffers& buffers, const PreconvolvedEnvironment& lights,
                           const LightingSettings& settings, tools::Image* image,
-                          const RunOptions& options) {
+                          const RunOptions& options, const MadeOnce& once,
+                          const std::string& ran_on) {
   LightingInputs inputs;
   inputs.visibility = buffers.visibility;
   inputs.normal = buffers.normal;
   inputs.bent_normal = buffers.bent;
   inputs.cone_angle = buffers.angle;
-  return light(inputs, lights, settings, {image->view(0), image->view(1), image->view(2)}, options);
+  return c.backend.light(inputs, lights, settings,
+                         {image->view(0), image->view(1), image->view(2)}, options, once, ran_on);
 }
 
 class LightFrame : public CommandFrame {
@@ -148,13 +155,14 @@ class LightFrame : public CommandFrame {
                                                    shared_.lights, lighting_.world_from_eye,
                                                    &image_, options, &shared_.once)
                              : estimate(c_, shared_.method, input_, lighting_.technique, &buffers,
-                                        options, &shared_.once);
+                                        options, &shared_.once, &ran_on_);
     if (!status.ok()) return status;
     estimated_ = watch.seconds();
     RunOptions with_threads;
     with_threads.executor = shared_.executor.get();
     if (!compared) {
-      status = light_by_technique(buffers, shared_.lights, lighting_, &image_, with_threads);
+      status = light_by_technique(c_, buffers, shared_.lights, lighting_, &image_, with_threads,
+                                  shared_.once, ran_on_);
     }
     if (!status.ok()) return status;
     for (int k = 0; k < 3; ++k) {
@@ -187,6 +195,7 @@ class LightFrame : public CommandFrame {
     report.settings = to_json(shared_.method);
     report.settings["input"] = files_.input;
     report.settings["method"] = c_.method.method();
+    report.settings["backend"] = ran_on_;
     report.settings["environment"] = shared_.source.name;
     visit_fields(lighting_, [&](const auto& value, const Field& field) {
       report.settings[field.name] = write_setting(value);
@@ -210,6 +219,7 @@ class LightFrame : public CommandFrame {
   LoadedInput input_;
   LightingSettings lighting_;
   tools::Image image_;
+  std::string ran_on_ = "cpu";
   double estimated_ = 0, lit_ = 0;  // seconds
 };
 

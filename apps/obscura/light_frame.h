@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/obscura/backend.h"
 #include "apps/obscura/exr_options.h"
 #include "apps/obscura/input.h"
 #include "apps/obscura/methods.h"
@@ -17,6 +18,7 @@ namespace obscura::app {
 struct LightCommand {
   InputOptions input;
   MethodOptions method;
+  BackendOptions backend;
   SequenceOptions sequence;
   OptionTable lighting;
   std::string environment, output, json;

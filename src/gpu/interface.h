@@ -21,6 +21,7 @@ enum class BindingKind {
   kBuffer,
   kImage,   // that is read
   kResult,  // an image that is written or, in the shader's second form, a buffer
+  kWritten,  // an image that is written, in the shader's only form
 };
 
 struct Binding {

@@ -16,6 +16,7 @@
 //   IO_IMAGE(3, DepthImage, depth_image); a texture2D
 //   IO_VISIBILITY(4);                     kVisibilityResultAt; gpu/results.glsl writes it
 //   IO_DIRECTIONS(5);                     kDirectionResultAt; gpu/direction_result.glsl writes it
+//   IO_LIGHT(6);                          kLightResultAt; an image that is written
 //   IO_PUSH(int start; float edge;);      push constants after FrameConstants: Push in C++, members
 //                                         of `view` in GLSL; IO_NO_PUSH where there are none
 //   IO_END                                last
@@ -56,6 +57,7 @@
 #define IO_IMAGE(at, name, image) IO_BINDING(at, name, BindingKind::kImage)
 #define IO_VISIBILITY(at) IO_BINDING(at, VisibilityResult, BindingKind::kResult)
 #define IO_DIRECTIONS(at) IO_BINDING(at, DirectionResult, BindingKind::kResult)
+#define IO_LIGHT(at) IO_BINDING(at, LightResult, BindingKind::kWritten)
 #define IO_PUSH(words) \
   struct Push {        \
     words              \
@@ -91,6 +93,7 @@
 #define IO_VISIBILITY(at) layout(binding = at) uniform writeonly image2D visibility_result
 #define IO_DIRECTIONS(at) layout(binding = at) uniform writeonly image2D direction_result
 #endif
+#define IO_LIGHT(at) layout(binding = at) uniform writeonly image2D light_result
 #define IO_PUSH(words) layout(push_constant) uniform View{OBSCURA_FRAME_CONSTANTS words} view
 #define IO_NO_PUSH layout(push_constant) uniform View{OBSCURA_FRAME_CONSTANTS} view
 #define IO_END

@@ -21,6 +21,8 @@ bool fits(const BoundSlot& bound) {
       return slot.kind != Slot::kRegion && !slot.is_result();
     case BindingKind::kResult:
       return slot.kind == Slot::kRegion || slot.is_result();
+    case BindingKind::kWritten:
+      return slot.kind == Slot::kLightImage;
     case BindingKind::kNone:
       break;
   }

@@ -22,14 +22,21 @@ struct Slot {
     kBackDepthImage,
     kNormalImage,
     kVisibilityImage,
-    kBentNormalImage
+    kBentNormalImage,
+    // Of the light, which reads what an estimator has written.
+    kVisibilityInput,
+    kBentNormalInput,
+    kAlbedoImage,
+    kLightImage
   };
   Kind kind = kRegion;
   int region = 0;
 
   Slot(int number) : region(number) {}
   Slot(Kind image) : kind(image) {}
-  bool is_result() const { return kind == kVisibilityImage || kind == kBentNormalImage; }
+  bool is_result() const {
+    return kind == kVisibilityImage || kind == kBentNormalImage || kind == kLightImage;
+  }
   bool operator==(const Slot&) const = default;
 };
 

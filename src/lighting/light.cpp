@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "core/run_threads.h"
 #include "core/text.h"
+#include "lighting/check_rotation.h"
 #include "lighting/light_kernel.h"
 #include "lighting/preconvolved_impl.h"
 #include "obscura/lighting.h"
@@ -79,20 +80,6 @@ Status for_rows(int width, int height, int scratch_rows, const RunOptions& optio
   return {};
 }
 
-Status check_rotation(const std::array<float, 9>& m) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      float dot = 0;
-      for (int k = 0; k < 3; ++k) dot += m[3 * i + k] * m[3 * j + k];
-      if (!(std::abs(dot - (i == j ? 1.0f : 0.0f)) < 1e-3f)) {
-        return invalid_argument(text("world_from_eye is not orthonormal: rows ", i, " and ", j,
-                                     " have the product ", dot));
-      }
-    }
-  }
-  return {};
-}
-
 lighting::LightFrame make_frame(const PreconvolvedEnvironment::Impl& environment,
                                 const LightingSettings& s) {
   lighting::LightFrame f;
@@ -103,25 +90,31 @@ lighting::LightFrame make_frame(const PreconvolvedEnvironment::Impl& environment
   f.table = environment.table.data();
   f.cells = environment.grid.cells;
   std::copy(s.world_from_eye.begin(), s.world_from_eye.end(), f.world_from_eye);
-  const Sun& sun = environment.sun;
-  f.sun_shines = sun.shines();
-  for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i < 3; ++i) f.sun[k] += s.world_from_eye[3 * i + k] * sun.direction[i];
-    f.sun_rgb[k] = sun.irradiance[k] / std::numbers::pi_v<float>;
-  }
-  // Avoids a division by zero for a disc of size 0.
-  f.sun_radius = std::max(sun.angular_radius, 1e-4f);
+  f.sun_shines = environment.sun.shines();
+  f.sun = lighting::make_eye_sun(s.world_from_eye, environment.sun);
   return f;
 }
 
 }  // namespace
+
+lighting::EyeSun lighting::make_eye_sun(const std::array<float, 9>& world_from_eye,
+                                        const Sun& sun) {
+  EyeSun eye;
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) eye.direction[k] += world_from_eye[3 * i + k] * sun.direction[i];
+    eye.rgb[k] = sun.irradiance[k] / std::numbers::pi_v<float>;
+  }
+  // Avoids a division by zero for a disc of size 0.
+  eye.radius = std::max(sun.angular_radius, 1e-4f);
+  return eye;
+}
 
 Status light(const LightingInputs& in, const PreconvolvedEnvironment& environment,
              const LightingSettings& settings, const VectorView<float>& out,
              const RunOptions& options) {
   if (environment.empty()) return invalid_argument("the environment is empty");
   if (Status s = validate_ranges(settings); !s.ok()) return s;
-  if (Status s = check_rotation(settings.world_from_eye); !s.ok()) return s;
+  if (Status s = lighting::check_rotation(settings.world_from_eye); !s.ok()) return s;
   const bool bent = settings.technique != LightingTechnique::kAmbientOcclusion;
   const bool cone = settings.technique == LightingTechnique::kBentCone;
   const int width = in.visibility.width, height = in.visibility.height;

@@ -1,11 +1,18 @@
 #ifndef OBSCURA_SRC_LIGHTING_LIGHT_KERNEL_H_
 #define OBSCURA_SRC_LIGHTING_LIGHT_KERNEL_H_
 
-#include <cstdint>
+#include <array>
 
 #include "obscura/lighting.h"
 
 namespace obscura::lighting {
+
+struct EyeSun {
+  float direction[3] = {};  // in eye space
+  float rgb[3] = {};        // irradiance / pi
+  float radius = 0;         // above 0
+};
+EyeSun make_eye_sun(const std::array<float, 9>& world_from_eye, const Sun& sun);
 
 struct LightFrame {
   LightingTechnique technique = LightingTechnique::kBentCone;
@@ -16,9 +23,7 @@ struct LightFrame {
   int cells = 0;
   float world_from_eye[9] = {};
   bool sun_shines = false;
-  float sun[3] = {};      // direction in eye space
-  float sun_rgb[3] = {};  // irradiance / pi
-  float sun_radius = 0;
+  EyeSun sun;
 };
 
 // One row. Each input holds `width` numbers and is padded, so that whole vectors may be read and

@@ -16,6 +16,10 @@ namespace obscura {
 namespace HWY_NAMESPACE {
 namespace leaf {
 #include "math/cone_leaf.h"
+
+// Words of the light's leaf file alone.
+LEAF(Real) leaf_acos(Real x) { return hn::Acos(D(), x); }
+#include "obscura/glsl/light_leaf.glsl"
 }  // namespace leaf
 }  // namespace HWY_NAMESPACE
 
@@ -30,48 +34,19 @@ using D4 = hn::FixedTag<float, 4>;
 using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
 constexpr int kMaxLanes = HWY_MAX_BYTES / sizeof(float);
-constexpr float kHalfPi = 1.57079632679f;
 
-struct Vector {
-  V x, y, z;
-};
-
-HWY_INLINE V Dot(const Vector& a, const Vector& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
-HWY_INLINE V Clamp01(V v) {
-  const D d;
-  return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f));
-}
+using Vector = leaf::LightVector;
 
 HWY_INLINE Vector LoadVector(const float* const planes[3], int x) {
   const D d;
   return {hn::LoadU(d, planes[0] + x), hn::LoadU(d, planes[1] + x), hn::LoadU(d, planes[2] + x)};
 }
 
-// v / |v|, or `other` where v is zero or not finite.
-HWY_INLINE Vector Unit(const Vector& v, const Vector& other) {
-  const D d;
-  const V one = hn::Set(d, 1.0f);
-  // Divided by the largest component first, for squares of large ones overflow.
-  const V largest = hn::Max(hn::Abs(v.x), hn::Max(hn::Abs(v.y), hn::Abs(v.z)));
-  const V scale = hn::Div(one, largest);
-  const Vector s{hn::Mul(v.x, scale), hn::Mul(v.y, scale), hn::Mul(v.z, scale)};
-  const V square = Dot(s, s);
-  // A NaN or an infinity anywhere makes the square not finite; a good one is in [1, 3].
-  const auto good = hn::And(hn::Ge(square, hn::Set(d, 0.5f)), hn::Le(square, hn::Set(d, 3.5f)));
-  const V inverse = hn::Div(one, hn::Sqrt(square));
-  return {hn::IfThenElse(good, hn::Mul(s.x, inverse), other.x),
-          hn::IfThenElse(good, hn::Mul(s.y, inverse), other.y),
-          hn::IfThenElse(good, hn::Mul(s.z, inverse), other.z)};
-}
-
 HWY_INLINE Vector ToWorld(const LightFrame& f, const Vector& v) {
   const D d;
   auto row = [&](int k) HWY_ATTR {
     const float* m = f.world_from_eye + 3 * k;
-    return Dot({hn::Set(d, m[0]), hn::Set(d, m[1]), hn::Set(d, m[2])}, v);
+    return leaf::light_dot({hn::Set(d, m[0]), hn::Set(d, m[1]), hn::Set(d, m[2])}, v);
   };
   return {row(0), row(1), row(2)};
 }
@@ -83,40 +58,18 @@ struct Cells {
   HWY_ALIGN float weight[4][kMaxLanes];
 };
 
-// As CubeGrid::hit.
-HWY_INLINE void FindCells(const LightFrame& f, const Vector& w, VI level, Cells* cells) {
+HWY_INLINE void FindCells(const LightFrame& f, const Vector& w, V level, Cells* cells) {
   const D d;
   const DI di;
-  const V ax = hn::Abs(w.x), ay = hn::Abs(w.y), az = hn::Abs(w.z);
-  const auto is_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-  const auto is_y = hn::Ge(ay, az);
-  auto choose = [&](V on_x, V on_y, V on_z) HWY_ATTR {
-    return hn::IfThenElse(is_x, on_x, hn::IfThenElse(is_y, on_y, on_z));
-  };
-  const V major = choose(w.x, w.y, w.z);
-  const V scale = hn::Div(hn::Set(d, 0.5f), hn::Abs(major));
-  const V count = hn::Set(d, static_cast<float>(f.cells)), half = hn::Set(d, 0.5f);
-  const V one = hn::Set(d, 1.0f);
-  const VI last = hn::Set(di, f.cells - 1), side = hn::Set(di, f.cells + 1);
-  auto cell = [&](V component, V* fraction) HWY_ATTR {
-    const V at = hn::Mul(hn::MulAdd(component, scale, half), count);
-    const VI i = hn::Max(hn::Min(hn::ConvertTo(di, at), last), hn::Zero(di));
-    *fraction = Clamp01(hn::Sub(at, hn::ConvertTo(d, i)));
-    return i;
-  };
-  V u, v;
-  const VI i = cell(choose(w.y, w.z, w.x), &u), j = cell(choose(w.z, w.x, w.y), &v);
-  const V axis = choose(hn::Zero(d), hn::Set(d, 2.0f), hn::Set(d, 4.0f));
-  const VI face =
-      hn::ConvertTo(di, hn::Add(axis, hn::IfThenElseZero(hn::Lt(major, hn::Zero(d)), one)));
-  const VI vertex = hn::Add(hn::Mul(hn::Add(hn::Mul(face, side), j), side), i);
-  hn::Store(hn::Add(hn::Mul(vertex, hn::Set(di, kVertexFloats)), hn::ShiftLeft<2>(level)), di,
+  const leaf::LightCell cell = leaf::light_cell(hn::Set(d, static_cast<float>(f.cells)), w);
+  const VI vertex = hn::ConvertTo(di, cell.vertex), low = hn::ConvertTo(di, level);
+  hn::Store(hn::Add(hn::Mul(vertex, hn::Set(di, kVertexFloats)), hn::ShiftLeft<2>(low)), di,
             cells->offset);
-  const V u0 = hn::Sub(one, u), v0 = hn::Sub(one, v);
+  const V one = hn::Set(d, 1.0f), u0 = hn::Sub(one, cell.u), v0 = hn::Sub(one, cell.v);
   hn::Store(hn::Mul(u0, v0), d, cells->weight[0]);
-  hn::Store(hn::Mul(u, v0), d, cells->weight[1]);
-  hn::Store(hn::Mul(u0, v), d, cells->weight[2]);
-  hn::Store(hn::Mul(u, v), d, cells->weight[3]);
+  hn::Store(hn::Mul(cell.u, v0), d, cells->weight[1]);
+  hn::Store(hn::Mul(u0, cell.v), d, cells->weight[2]);
+  hn::Store(hn::Mul(cell.u, cell.v), d, cells->weight[3]);
 }
 
 // Bilinear between a cell's vertices and, for cones, linear between two levels, pixel by pixel: a
@@ -150,60 +103,45 @@ template <LightingTechnique kTechnique>
 HWY_INLINE Vector Pixels(const LightFrame& f, const LightRow& row, int at) {
   constexpr bool kCone = kTechnique == LightingTechnique::kBentCone;
   const D d;
-  const DI di;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  V visibility = hn::LoadU(d, row.visibility + at);
-  visibility = hn::IfThenElse(hn::Eq(visibility, visibility), Clamp01(visibility), one);
-  const Vector n = Unit(LoadVector(row.normal, at), {zero, zero, one});
+  const V visibility = leaf::light_visibility(hn::LoadU(d, row.visibility + at));
+  const Vector n = leaf::light_unit(LoadVector(row.normal, at), {zero, zero, one});
   Vector axis = n;
   if constexpr (kTechnique != LightingTechnique::kAmbientOcclusion) {
-    axis = Unit(LoadVector(row.bent, at), n);
+    axis = leaf::light_unit(LoadVector(row.bent, at), n);
   }
 
   Cells cells;
-  V angle = hn::Set(d, kHalfPi), cosine = zero;
+  V angle = hn::Set(d, leaf::kLightHalfPi), cosine = zero, low = hn::Set(d, kLevels - 1.0f);
   HWY_ALIGN float between[kMaxLanes];
-  VI level = hn::Set(di, kLevels - 1);
   if constexpr (kCone) {
-    angle = hn::LoadU(d, row.angle + at);
-    angle = hn::IfThenElse(hn::Eq(angle, angle), angle, hn::Set(d, kHalfPi));
-    angle = hn::Min(hn::Max(angle, zero), hn::Set(d, kHalfPi));
+    angle = leaf::light_angle(hn::LoadU(d, row.angle + at));
     cosine = hn::Max(hn::Cos(d, angle), zero);
-    const V above = hn::Max(hn::MulSub(angle, hn::Set(d, 1 / kLevelStep), one), zero);
-    level = hn::Min(hn::ConvertTo(di, above), hn::Set(di, kLevels - 2));
-    hn::Store(hn::Min(hn::Sub(above, hn::ConvertTo(d, level)), one), d, between);
+    const leaf::LightLevel level = leaf::light_level(angle);
+    low = level.low;
+    hn::Store(level.between, d, between);
   }
-  FindCells(f, ToWorld(f, axis), level, &cells);
+  FindCells(f, ToWorld(f, axis), low, &cells);
   Vector rgb = LookUp<kCone>(f, cells, between);
 
-  V scale = visibility;
-  const V bend = Clamp01(Dot(axis, n));
-  if (f.geometric_term) scale = hn::Mul(scale, bend);
-  // t of the paper over that of the table: sin^2(a) / (1 - cos a).
-  if (kCone && f.paper_normalisation) scale = hn::Mul(scale, hn::Add(one, cosine));
+  const V bend = hn::Min(hn::Max(leaf::light_dot(axis, n), zero), one);
+  const V scale = leaf::light_scale(f.geometric_term, kCone && f.paper_normalisation, visibility,
+                                    bend, cosine);
   rgb = {hn::Mul(rgb.x, scale), hn::Mul(rgb.y, scale), hn::Mul(rgb.z, scale)};
 
   if (f.sun_shines) {
-    const Vector s{hn::Set(d, f.sun[0]), hn::Set(d, f.sun[1]), hn::Set(d, f.sun[2])};
-    V shade = visibility;
-    V facing = hn::Max(Dot(axis, s), zero);
+    const float* sun = f.sun.direction;
+    const Vector s{hn::Set(d, sun[0]), hn::Set(d, sun[1]), hn::Set(d, sun[2])};
+    const V along_axis = leaf::light_dot(axis, s);
+    V w = hn::Mul(hn::Max(along_axis, zero), visibility);
     if constexpr (kCone) {
-      // The share of the disc inside the cone, linear in the angle between sun and axis.
-      const V off = hn::Acos(d, hn::Min(hn::Max(Dot(axis, s), hn::Set(d, -1.0f)), one));
-      const V radius = hn::Set(d, f.sun_radius);
-      const V inside =
-          Clamp01(hn::Div(hn::Sub(hn::Add(angle, radius), off), hn::Add(radius, radius)));
-      // The share of the cone that is open: visibility over that of the whole cone.
-      const V whole = f.uniform_weights ? hn::Sub(one, cosine)
-                                        : hn::Mul(hn::NegMulAdd(cosine, cosine, one), bend);
-      const V open = Clamp01(hn::Div(visibility, hn::Max(whole, hn::Set(d, 1e-4f))));
-      shade = hn::Mul(inside, open);
-      facing = hn::Max(Dot(n, s), zero);
+      w = hn::Mul(hn::Max(leaf::light_dot(n, s), zero),
+                  leaf::light_sun_through_cone(f.uniform_weights, visibility, bend, angle, cosine,
+                                               along_axis, hn::Set(d, f.sun.radius)));
     }
-    const V w = hn::Mul(facing, shade);
-    rgb = {hn::MulAdd(w, hn::Set(d, f.sun_rgb[0]), rgb.x),
-           hn::MulAdd(w, hn::Set(d, f.sun_rgb[1]), rgb.y),
-           hn::MulAdd(w, hn::Set(d, f.sun_rgb[2]), rgb.z)};
+    const float* light = f.sun.rgb;
+    rgb = {hn::MulAdd(w, hn::Set(d, light[0]), rgb.x), hn::MulAdd(w, hn::Set(d, light[1]), rgb.y),
+           hn::MulAdd(w, hn::Set(d, light[2]), rgb.z)};
   }
   if (row.albedo[0]) {
     const Vector a = LoadVector(row.albedo, at);
@@ -243,8 +181,8 @@ void CosineCones(const float* visibility, const float* const integral[3], int wi
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
     const Vector v = LoadVector(integral, x);
     const V whole = hn::LoadU(d, visibility + x);
-    const V length = hn::Sqrt(Dot(v, v));
-    const Vector unit = Unit(v, {zero, zero, one});
+    const V length = hn::Sqrt(leaf::light_dot(v, v));
+    const Vector unit = leaf::light_unit(v, {zero, zero, one});
     // The narrowest opening, a cone with nothing open, where nothing is visible.
     const V mean = hn::IfThenElse(hn::Gt(whole, zero), hn::Div(length, whole), one);
     const V cosine = leaf::cap_cosine_of_cosine_mean(mean);

@@ -1,6 +1,7 @@
 #include "vulkan/checks.h"
 
 #include "core/text.h"
+#include "vulkan/descriptors.h"
 
 namespace obscura::vulkan {
 
@@ -23,6 +24,13 @@ Status check(const FrameImages& images, const FrameShape& shape) {
   return invalid_argument(
       "depth, visibility and, if the shape says so, normals, bent_normal and back_depth must be "
       "given");
+}
+
+Status check_memory(const Scratch& memory, const char* what) {
+  if (!memory.buffer) return invalid_argument(text(what, " must be bound before images"));
+  if (memory.offset % kScratchAlignment == 0) return {};
+  return invalid_argument(text(what, "'s offset is ", memory.offset, "; it must be a multiple of ",
+                               kScratchAlignment));
 }
 
 }  // namespace obscura::vulkan

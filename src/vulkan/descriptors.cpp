@@ -8,18 +8,26 @@ namespace {
 using gpu::BoundSlot;
 using gpu::Slot;
 
-VkImageView view_of(const Slot& slot, const FrameImages& images) {
+VkImageView view_of(const Slot& slot, const BoundImages& images) {
   switch (slot.kind) {
     case Slot::kNormalImage:
-      return images.normals;
+      return images.frame.normals;
     case Slot::kBackDepthImage:
-      return images.back_depth;
+      return images.frame.back_depth;
     case Slot::kVisibilityImage:
-      return images.visibility;
+      return images.frame.visibility;
     case Slot::kBentNormalImage:
-      return images.bent_normal;
+      return images.frame.bent_normal;
+    case Slot::kVisibilityInput:
+      return images.light.visibility;
+    case Slot::kBentNormalInput:
+      return images.light.bent_normal;
+    case Slot::kAlbedoImage:
+      return images.light.albedo;
+    case Slot::kLightImage:
+      return images.light.light;
     default:
-      return images.depth;
+      return images.frame.depth;
   }
 }
 
@@ -79,7 +87,7 @@ bool Descriptors::allocate(int frames) {
   return true;
 }
 
-void Descriptors::write(int frame, const FrameImages& images, const Scratch& scratch,
+void Descriptors::write(int frame, const BoundImages& images, const Scratch& scratch,
                         const ScratchLayout& layout) const {
   for (std::size_t number = 0; number < entries_.size(); ++number) {
     for (const BoundSlot& bound : entries_[number].slots) {
@@ -88,7 +96,7 @@ void Descriptors::write(int frame, const FrameImages& images, const Scratch& scr
   }
 }
 
-void Descriptors::write(VkDescriptorSet set, const BoundSlot& bound, const FrameImages& images,
+void Descriptors::write(VkDescriptorSet set, const BoundSlot& bound, const BoundImages& images,
                         const Scratch& scratch, const ScratchLayout& layout) const {
   const Slot& slot = bound.slot;
   VkWriteDescriptorSet w{};
@@ -105,8 +113,11 @@ void Descriptors::write(VkDescriptorSet set, const BoundSlot& bound, const Frame
     w.pBufferInfo = &buffer;
   } else {
     image.imageView = view_of(slot, images);
+    // What an estimator has written is read where it lies.
+    const bool general = slot.is_result() || slot.kind == Slot::kVisibilityInput ||
+                         slot.kind == Slot::kBentNormalInput;
     image.imageLayout =
-        slot.is_result() ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     w.pImageInfo = &image;
   }
   f_.UpdateDescriptorSets(device_.device, 1, &w, 0, nullptr);

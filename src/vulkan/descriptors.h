@@ -6,6 +6,7 @@
 
 #include "gpu/pass.h"
 #include "obscura/vulkan.h"
+#include "obscura/vulkan_light.h"
 #include "vulkan/functions.h"
 #include "vulkan/pipelines.h"
 
@@ -22,6 +23,12 @@ struct ScratchLayout {
   void add_region(VkDeviceSize size);
 };
 
+// What of the caller's images slots may name.
+struct BoundImages {
+  FrameImages frame{};
+  LightImages light{};
+};
+
 // The descriptor sets of passes, one per frame; passes that bind the same share them.
 class Descriptors {
  public:
@@ -35,7 +42,7 @@ class Descriptors {
   std::size_t find_or_add(std::size_t pipeline, const gpu::Pass& pass);
   // Once, after all passes. False if the device has none left.
   bool allocate(int frames);
-  void write(int frame, const FrameImages& images, const Scratch& scratch,
+  void write(int frame, const BoundImages& images, const Scratch& scratch,
              const ScratchLayout& layout) const;
   VkDescriptorSet set(std::size_t number, int frame) const {
     return entries_[number].sets[static_cast<std::size_t>(frame)];
@@ -49,7 +56,7 @@ class Descriptors {
   };
 
   bool make_pool(std::uint32_t frames);
-  void write(VkDescriptorSet set, const gpu::BoundSlot& bound, const FrameImages& images,
+  void write(VkDescriptorSet set, const gpu::BoundSlot& bound, const BoundImages& images,
              const Scratch& scratch, const ScratchLayout& layout) const;
 
   const Functions& f_;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <new>
 
 #include "core/text.h"
@@ -10,6 +9,7 @@
 #include "screen/half_resolution/gpu.h"
 #include "view/check_view.h"
 #include "vulkan/checks.h"
+#include "vulkan/commands.h"
 #include "vulkan/descriptors.h"
 #include "vulkan/functions.h"
 #include "vulkan/pipelines.h"
@@ -20,13 +20,6 @@ namespace {
 using gpu::FrameConstants;
 using gpu::Pass;
 using gpu::Slot;
-
-constexpr std::size_t kFrameWords = sizeof(FrameConstants) / sizeof(std::uint32_t);
-constexpr VkDeviceSize kMaxUpdate = 65536;  // of vkCmdUpdateBuffer
-
-std::uint32_t groups(int size, int tile) {
-  return static_cast<std::uint32_t>((size + tile - 1) / tile);
-}
 
 }  // namespace
 
@@ -70,33 +63,18 @@ class Recorder::Impl {
 
   Status bind_images(int frame, const FrameImages& images) {
     if (Status s = check_frame(frame, shape_); !s.ok()) return s;
-    if (!scratch_.buffer) return invalid_argument("scratch memory must be bound before images");
-    if (scratch_.offset % kScratchAlignment != 0) {
-      return invalid_argument(text("the scratch memory's offset is ", scratch_.offset,
-                                   "; it must be a multiple of ", kScratchAlignment));
-    }
+    if (Status s = check_memory(scratch_, "scratch memory"); !s.ok()) return s;
     if (Status s = check(images, shape_); !s.ok()) return s;
-    descriptors_.write(frame, images, scratch_, layout_);
+    descriptors_.write(frame, {.frame = images}, scratch_, layout_);
     bound_ |= 1u << frame;
     return {};
   }
 
   void record_tables(VkCommandBuffer commands) const {
     if (program_.table_region < 0 || !scratch_.buffer) return;
-    // Another recorder may have used the same scratch memory just before.
-    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
-                                 VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                 VK_ACCESS_TRANSFER_WRITE_BIT};
-    f_.CmdPipelineBarrier(commands,
-                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                          VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
     const auto region = static_cast<std::size_t>(program_.table_region);
-    const VkDeviceSize start = scratch_.offset + layout_.offsets[region];
-    const VkDeviceSize bytes = program_.tables.size() * sizeof(float);
-    for (VkDeviceSize at = 0; at < bytes; at += kMaxUpdate) {
-      f_.CmdUpdateBuffer(commands, scratch_.buffer, start + at, std::min(kMaxUpdate, bytes - at),
-                         program_.tables.data() + at / sizeof(float));
-    }
+    record_upload(f_, commands, scratch_.buffer, scratch_.offset + layout_.offsets[region],
+                  program_.tables);
   }
 
   Status record(VkCommandBuffer commands, int frame, const FrameView& view,
@@ -109,15 +87,17 @@ class Recorder::Impl {
       f_.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, options.timestamps,
                            options.first_query + static_cast<std::uint32_t>(i));
     };
-    barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    record_wait(f_, commands);
     stamp(0);
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       const Pass& pass = program_.passes[i];
       if (i > 0 && !pass.overlaps) {
-        barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
+        record_barrier(f_, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_SHADER_WRITE_BIT);
       }
-      record(commands, pass, stages_[i], frame, pass.half ? half : whole);
+      record_pass(f_, commands, pipelines_[stages_[i].pipeline],
+                  descriptors_.set(stages_[i].sets, frame), pass, pass.half ? half : whole,
+                  pass.push);
       stamp(i + 1);
     }
     return {};
@@ -134,32 +114,6 @@ class Recorder::Impl {
       return invalid_argument(text("frame ", frame, " has no images; bind_images() comes first"));
     }
     return view::check_view(view.camera, shape_.depth_kind, view.near_plane, view.far_plane);
-  }
-
-  void record(VkCommandBuffer commands, const Pass& pass, const Stage& stage, int frame,
-              FrameConstants constants) const {
-    const Pipeline& p = pipelines_[stage.pipeline];
-    const VkDescriptorSet set = descriptors_.set(stage.sets, frame);
-    f_.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.pipeline);
-    f_.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.layout, 0, 1, &set, 0,
-                             nullptr);
-    constants.radius = pass.radius;
-    constants.thickness = pass.thickness;
-    // One call for both: calls are most of what recording costs.
-    std::uint32_t push[kFrameWords + gpu::kMaxPush];
-    std::memcpy(push, &constants, sizeof(constants));
-    std::ranges::copy(pass.push, push + kFrameWords);
-    f_.CmdPushConstants(commands, p.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes(pass), push);
-    const Extent tile = pass.shader.io->tile;
-    f_.CmdDispatch(commands, groups(pass.size.width, tile.width),
-                   groups(pass.size.height, tile.height), static_cast<std::uint32_t>(pass.layers));
-  }
-
-  void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written) const {
-    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, written,
-                                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
-    f_.CmdPipelineBarrier(commands, from, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &memory, 0,
-                          nullptr, 0, nullptr);
   }
 
   VkDeviceSize bytes_of(const Pass& pass) const {

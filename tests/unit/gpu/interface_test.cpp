@@ -23,6 +23,8 @@ Resource resource_of(BindingKind kind, bool to_scratch) {
       return Resource::kSampledImage;
     case BindingKind::kResult:
       return to_scratch ? Resource::kBuffer : Resource::kStorageImage;
+    case BindingKind::kWritten:
+      return Resource::kStorageImage;
     case BindingKind::kNone:
       break;
   }

@@ -79,9 +79,9 @@ Status HeadlessVulkan::light(const LightingInputs& in, const PreconvolvedEnviron
   if (bent) fill_cones(in, cones.upload);
   if (albedo) fill(in.albedo, colour.upload);
   recorder.bind_environment({table.buffer, 0});
-  if (Status s = recorder.bind_images(0, {visibility.picture.view, normals.picture.view,
-                                          cones.picture.view, colour.picture.view,
-                                          result.picture.view});
+  if (Status s =
+          recorder.bind_images(0, {visibility.picture.view, normals.picture.view,
+                                   cones.picture.view, colour.picture.view, result.picture.view});
       !s.ok()) {
     return s;
   }

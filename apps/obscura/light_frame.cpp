@@ -31,8 +31,8 @@ struct Buffers {
 };
 
 Status estimate(const LightCommand& c, const AnySettings& method, const LoadedInput& input,
-                LightingTechnique technique, Buffers* b, const RunOptions& options,
-                MadeOnce* once, std::string* ran_on) {
+                LightingTechnique technique, Buffers* b, const RunOptions& options, MadeOnce* once,
+                std::string* ran_on) {
   const tools::DepthInput& g = input.depth();
   const DepthField field = input.field();
   Outputs outputs;
@@ -108,17 +108,17 @@ Status light_by_comparator(const LightCommand& c, AnySettings method, const Load
 }
 
 // Light by a technique from what the estimator has left in the buffers, where it ran.
-Status light_by_technique(const LightCommand& c, const Buffers& buffers, const PreconvolvedEnvironment& lights,
-                          const LightingSettings& settings, tools::Image* image,
-                          const RunOptions& options, const MadeOnce& once,
+Status light_by_technique(const LightCommand& c, const Buffers& buffers,
+                          const PreconvolvedEnvironment& lights, const LightingSettings& settings,
+                          tools::Image* image, const RunOptions& options, const MadeOnce& once,
                           const std::string& ran_on) {
   LightingInputs inputs;
   inputs.visibility = buffers.visibility;
   inputs.normal = buffers.normal;
   inputs.bent_normal = buffers.bent;
   inputs.cone_angle = buffers.angle;
-  return c.backend.light(inputs, lights, settings,
-                         {image->view(0), image->view(1), image->view(2)}, options, once, ran_on);
+  return c.backend.light(inputs, lights, settings, {image->view(0), image->view(1), image->view(2)},
+                         options, once, ran_on);
 }
 
 class LightFrame : public CommandFrame {

@@ -65,8 +65,8 @@ class OBSCURA_API OBSCURA_EXPERIMENTAL LightRecorder {
                             const PreconvolvedEnvironment& environment) const;
 
   // Waits, on the device, for earlier compute and transfer work, so also for a Recorder's results;
-  // the caller makes normals and albedo visible to COMPUTE_SHADER reads, and makes the light that it
-  // writes there visible to what follows.
+  // the caller makes normals and albedo visible to COMPUTE_SHADER reads, and makes the light that
+  // it writes there visible to what follows.
   //
   // Records nothing and says why where a frame has no images, world_from_eye is no rotation or the
   // sun has a direction of length 0.

@@ -19,8 +19,8 @@ struct Constant {
 enum class BindingKind {
   kNone,
   kBuffer,
-  kImage,   // that is read
-  kResult,  // an image that is written or, in the shader's second form, a buffer
+  kImage,    // that is read
+  kResult,   // an image that is written or, in the shader's second form, a buffer
   kWritten,  // an image that is written, in the shader's only form
 };
 

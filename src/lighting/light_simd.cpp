@@ -125,8 +125,8 @@ HWY_INLINE Vector Pixels(const LightFrame& f, const LightRow& row, int at) {
   Vector rgb = LookUp<kCone>(f, cells, between);
 
   const V bend = hn::Min(hn::Max(leaf::light_dot(axis, n), zero), one);
-  const V scale = leaf::light_scale(f.geometric_term, kCone && f.paper_normalisation, visibility,
-                                    bend, cosine);
+  const V scale =
+      leaf::light_scale(f.geometric_term, kCone && f.paper_normalisation, visibility, bend, cosine);
   rgb = {hn::Mul(rgb.x, scale), hn::Mul(rgb.y, scale), hn::Mul(rgb.z, scale)};
 
   if (f.sun_shines) {

@@ -29,8 +29,8 @@ Status check(const FrameImages& images, const FrameShape& shape) {
 Status check_memory(const Scratch& memory, const char* what) {
   if (!memory.buffer) return invalid_argument(text(what, " must be bound before images"));
   if (memory.offset % kScratchAlignment == 0) return {};
-  return invalid_argument(text(what, "'s offset is ", memory.offset, "; it must be a multiple of ",
-                               kScratchAlignment));
+  return invalid_argument(
+      text(what, "'s offset is ", memory.offset, "; it must be a multiple of ", kScratchAlignment));
 }
 
 }  // namespace obscura::vulkan

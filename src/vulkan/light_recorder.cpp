@@ -91,8 +91,8 @@ class LightRecorder::Impl {
     const VkDeviceSize visible = shape_.visible().pixels();
     VkDeviceSize floats = 1 + 4 + 4;  // visibility, normal, light
     for (const gpu::BoundSlot& b : pass().slots) {
-      const bool image = b.slot.kind == gpu::Slot::kBentNormalInput ||
-                         b.slot.kind == gpu::Slot::kAlbedoImage;
+      const bool image =
+          b.slot.kind == gpu::Slot::kBentNormalInput || b.slot.kind == gpu::Slot::kAlbedoImage;
       if (image) floats += 4;
     }
     return sizeof(float) * floats * visible + layout_.bytes;
@@ -126,8 +126,8 @@ Status LightRecorder::create(const Device& device, const LightingSettings& setti
   if (Status s = gpu::check(shape.frame); !s.ok()) return s;
   try {
     gpu::Program program;
-    if (Status s = gpu::make_light_program({settings, shape.frame, shape.albedo, shape.cells},
-                                           &program);
+    if (Status s =
+            gpu::make_light_program({settings, shape.frame, shape.albedo, shape.cells}, &program);
         !s.ok()) {
       return s;
     }

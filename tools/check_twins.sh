@@ -18,7 +18,8 @@ while IFS= read -r shader; do
 done < <(find src -name '*.glsl' | sort)
 
 # Functions of leaf files: LEAF(type) name(, the type perhaps on a line of its own.
-functions=$(find src include \( -name '*_leaf.h' -o -name '*_leaf.glsl' \) -print0 | sort -z | xargs -0 -r cat | tr '\n' ' ' |
+read -ra folders < <(ls -d src include 2>/dev/null | paste -sd ' ')
+functions=$(find "${folders[@]}" \( -name '*_leaf.h' -o -name '*_leaf.glsl' \) -print0 | sort -z | xargs -0 -r cat | tr '\n' ' ' |
   { grep -oE 'LEAF\([A-Za-z]+\) +[a-z_0-9]+\(' || true; } | sed -E 's/LEAF\([A-Za-z]+\) +//; s/\($//' | sort)
 again=$(uniq -d <<<"$functions")
 [ -n "$again" ] && fail "two leaf files define the same function:" "$again"

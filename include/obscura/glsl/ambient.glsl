@@ -93,7 +93,7 @@ float obscura_sun_share(float visibility, ObscuraCone cone, vec3 n, vec3 s, floa
 
 // The share of a specular lobe that is open: how much of the lobe, taken as a cone around the
 // reflected direction r, lies in the visibility's cone (Jimenez, Wu, Pesce, Jarabo 2016, "Practical
-// real-time strategies for accurate indirect occlusion", section 5; the caps' intersection after
+// real-time strategies for accurate indirect occlusion"; the caps' intersection after
 // Oat and Sander 2007, "Ambient aperture lighting"). Unit r in eye space, perceptual roughness in
 // [0, 1].
 float obscura_specular_occlusion(ObscuraCone cone, vec3 r, float roughness) {

@@ -145,7 +145,7 @@ TEST_F(VulkanLight, EverySettingAgreesUnderEverySky) {
   }
 }
 
-// The four scenes' own visibility, bent normals and cones.
+// Visibility, bent normals and cones of four scenes of blocks.
 TEST_F(VulkanLight, ScenesAgree) {
   const PreconvolvedEnvironment lights = sky(SkyModel::kClear);
   for (int scene = 0; scene < 4; ++scene) {

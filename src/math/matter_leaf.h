@@ -33,7 +33,7 @@ directions_between(LEAF_IN(Slice) s, LEAF_IN(SectorEdge) low, LEAF_IN(SectorEdge
   return b;
 }
 
-// Sectors of a piece for which rho at its middle alone is enough.
+// Sectors of a piece for which rho at its middle alone is enough; that of more is its halves' mean.
 const float kNarrowPiece = 4.0f;
 
 // Of a sector: what rounding may do to a place.
@@ -61,12 +61,11 @@ mark_sectors(LEAF_IN(Slice) s, LEAF_IN(MatterLine) line, LEAF_IN(SectorEdge) low
   if (!leaf_any_bit(fresh)) return;
   Real count = leaf_count_bits(fresh);
   Truth counts = leaf_less(real(0.0f), count);
-  Real mean = rho_between_edges(line, low, high, real(0.5f));
   Truth wide = leaf_less(real(kNarrowPiece), high.place - low.place);
+  Real mean = rho_between_edges(line, low, high, leaf_select(wide, real(0.25f), real(0.5f)));
   if (leaf_any(wide)) {
-    Real halves = rho_between_edges(line, low, high, real(0.25f)) +
-                  rho_between_edges(line, low, high, real(0.75f));
-    mean = leaf_select(wide, real(0.5f) * halves, mean);
+    Real other = rho_between_edges(line, low, high, real(0.75f));
+    mean = leaf_select(wide, real(0.5f) * (mean + other), mean);
   }
   Real piece = (count * m.each) * mean;
   m.sum = m.sum + leaf_where(counts, piece);

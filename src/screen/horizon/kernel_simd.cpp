@@ -40,23 +40,62 @@ using leaf::LinePoint;
 using leaf::LineReceiver;
 using leaf::ObscuredSums;
 
-HWY_INLINE LineReceiver MakeReceiver(const Frame& f, const RowLoader& loader, int i, V z) {
+// The pixels of a vector: those of one row that stand at the same place in the pattern's tile, so
+// that all lanes look in the same directions. They share texels and branches as neighbours would
+// that look elsewhere do not. Lanes beyond the row's end see its last pixel.
+struct Pixels {
+  HWY_INLINE Pixels(const Frame& f, int visible_row, int first, int width)
+      : row(visible_row),
+        phase(first % f.interleave),
+        count(std::min(static_cast<int>(hn::Lanes(D())),
+                       (width - first + f.interleave - 1) / f.interleave)),
+        at((f.view.top + row) * f.view.stride + f.view.left) {
+    for (int lane = 0; lane < static_cast<int>(hn::Lanes(D())); ++lane) {
+      column[lane] = std::min(first + lane * f.interleave, width - 1);
+    }
+  }
+  // Of an image like view.depth.
+  HWY_INLINE V Load(const float* image) const {
+    return om::GatherLanes(D(), image + at, column);
+  }
+  HWY_INLINE Vec3 Normal(const view::TapFrame& f) const {
+    return {Load(f.normal_x), Load(f.normal_y), Load(f.normal_z)};
+  }
+  HWY_INLINE void Store(V values, float* out) const {
+    HWY_ALIGN float lanes[kMaxLanes];
+    hn::Store(values, D(), lanes);
+    for (int lane = 0; lane < count; ++lane) out[column[lane]] = lanes[lane];
+  }
+
+  HWY_ALIGN std::int32_t column[kMaxLanes];
+  const int row, phase, count;
+  const std::ptrdiff_t at;
+};
+
+// Calls each(pixels) for all pixels of a visible row.
+template <class Each>
+HWY_INLINE void ForPixels(const Frame& f, int row, int width, Each each) {
+  const int block = f.interleave * static_cast<int>(hn::Lanes(D()));
+  for (int x = 0; x < width; x += block) {
+    for (int i = x; i < std::min(x + f.interleave, width); ++i) each(Pixels(f, row, i, width));
+  }
+}
+
+HWY_INLINE LineReceiver MakeReceiver(const Frame& f, const Pixels& pixels, const Vec3& n, V z) {
   const D d;
+  const DI di;
   const Camera& c = f.view.camera;
   const V one = hn::Set(d, 1.0f);
   const V perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
-  const V u = hn::Iota(d, static_cast<float>(f.view.left + i));
-  const V v = hn::Set(d, static_cast<float>(loader.y));
+  const V u =
+      hn::ConvertTo(d, hn::Add(hn::Load(di, pixels.column), hn::Set(di, f.view.left)));
+  const V v = hn::Set(d, static_cast<float>(f.view.top + pixels.row));
   const V a = hn::Mul(perspective,
                       hn::Mul(hn::Sub(u, hn::Set(d, c.center_u - 0.5f)), hn::Set(d, c.scale_x)));
   const V b = hn::Mul(perspective,
                       hn::Mul(hn::Sub(v, hn::Set(d, c.center_v - 0.5f)), hn::Set(d, c.scale_y)));
-  // Beyond the row's end lanes follow the view: what neighbours skip depends on all lanes.
-  const Vec3 n = loader.Normal(i);
-  const M inside = hn::FirstN(d, std::min(loader.end - i, static_cast<int>(hn::Lanes(d))));
-  return leaf::make_line_receiver(u, v, hn::IfThenElse(hn::Lt(z, hn::Inf(d)), z, one),
-                                  hn::IfThenElseZero(inside, n.x), hn::IfThenElseZero(inside, n.y),
-                                  hn::IfThenElse(inside, n.z, one), a, b, c.orthographic);
+  return leaf::make_line_receiver(u, v, hn::IfThenElse(hn::Lt(z, hn::Inf(d)), z, one), n.x, n.y,
+                                  n.z, a, b, c.orthographic);
 }
 
 HWY_INLINE ImageLine MakeLine(const Frame& f, const LineReceiver& r, V cosine, V sine) {
@@ -68,15 +107,14 @@ HWY_INLINE ImageLine MakeLine(const Frame& f, const LineReceiver& r, V cosine, V
                                hn::Set(d, static_cast<float>(f.view.height - 1)));
 }
 
-// The rotation of direction k, and its samples' shift, for pixels from column i of a row on.
+// The rotation of direction k, and its samples' shift.
 struct Turn {
   V cosine, sine, shift;
 };
-HWY_INLINE Turn MakeTurn(const Frame& f, int row, int i, int k) {
+HWY_INLINE Turn MakeTurn(const Frame& f, const Pixels& pixels, int k) {
   const D d;
-  auto tile = [&](int value) HWY_ATTR {
-    return hn::LoadU(d, &f.tile[value][row % f.interleave][i % f.interleave]);
-  };
+  auto tile = [&](int value)
+                  HWY_ATTR { return hn::Set(d, f.tile[value][pixels.row % f.interleave][pixels.phase]); };
   const V c = hn::Set(d, f.cosine[k]), s = hn::Set(d, f.sine[k]);
   const V tc = tile(kTileCos), ts = tile(kTileSin);
   const V shift = hn::Add(tile(kTileShift), hn::Set(d, f.shift[k]));
@@ -141,12 +179,11 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
 }
 
 HWY_INLINE void StoreDirections(const LineReceiver& r, const Vec3& n, const ObscuredSums& sum,
-                                V whole, V each, Rows out, int i) {
-  const D d;
+                                V whole, V each, const Pixels& pixels, Rows out) {
   const leaf::EyeVector e = leaf::obscured_in_eye_space(r, n.x, n.y, n.z, sum, whole, each);
-  hn::StoreU(e.x, d, out[1] + i);
-  hn::StoreU(e.y, d, out[2] + i);
-  hn::StoreU(e.z, d, out[3] + i);
+  pixels.Store(e.x, out[1]);
+  pixels.Store(e.y, out[2]);
+  pixels.Store(e.z, out[3]);
 }
 
 template <FalloffKind kKind, bool kChord, SliceSums kSums>
@@ -229,22 +266,22 @@ HWY_INLINE leaf::Obscured MatterSliceOf(const Frame& f, const LineReceiver& r,
 template <FalloffKind kKind, bool kChord, bool kMatter, SliceSums kSums>
 void Slices(const Frame& f, int row, int width, Rows out) {
   const D d;
-  const RowLoader loader(f.view, row, width);
   leaf::LineSlices<kKind, kChord, kSums> rho(*f.rho);
   const bool orthographic = f.view.camera.orthographic;
   const V one = hn::Set(d, 1.0f), perspective = hn::Set(d, orthographic ? 0.0f : 1.0f);
   const V each = hn::Set(d, 1.0f / static_cast<float>(f.directions)), twice = hn::Add(each, each);
-  for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
-    LineReceiver r = MakeReceiver(f, loader, i, loader.Depth(i));
+  ForPixels(f, row, width, [&](const Pixels& pixels) HWY_ATTR {
+    const Vec3 n = pixels.Normal(f.view);
+    LineReceiver r = MakeReceiver(f, pixels, n, pixels.Load(f.view.depth));
     r.limit = rho.depth_without_effect(r.z);
     const V camera = orthographic ? one : hn::Mul(r.z, r.ray_length);
     V own = one;
     if constexpr (kMatter) {
-      own = BackOf(f, r.z, f.back ? hn::LoadU(d, f.back + loader.at + i) : r.z, r.a, r.b);
+      own = BackOf(f, r.z, f.back ? pixels.Load(f.back) : r.z, r.a, r.b);
     }
     ObscuredSums sum = leaf::nothing_obscured();
     for (int k = 0; k < f.directions; ++k) {
-      const Turn turn = MakeTurn(f, row, i, k);
+      const Turn turn = MakeTurn(f, pixels, k);
       const ImageLine line = MakeLine(f, r, turn.cosine, turn.sine);
       const leaf::Slice slice = leaf::make_slice(r.nz, line.nt, camera, perspective);
       leaf::Obscured o;
@@ -257,15 +294,15 @@ void Slices(const Frame& f, int row, int width, Rows out) {
     }
     // w_k = 2 pi / K.
     const V visibility = hn::NegMulAdd(sum.visibility, twice, one);
-    hn::StoreU(visibility, d, out[0] + i);
+    pixels.Store(visibility, out[0]);
     if constexpr (kSums == SliceSums::kUniform) {
       const V whole = hn::Mul(hn::Mul(sum.solid, each), hn::Set(d, 0.5f));
-      StoreDirections(r, loader.Normal(i), sum, whole, each, out, i);
+      StoreDirections(r, n, sum, whole, each, pixels, out);
     } else if constexpr (kSums == SliceSums::kCosine) {
       const V whole = hn::Mul(hn::Sub(one, visibility), hn::Set(d, 2.0f / 3));
-      StoreDirections(r, loader.Normal(i), sum, whole, twice, out, i);
+      StoreDirections(r, n, sum, whole, twice, pixels, out);
     }
-  }
+  });
 }
 
 template <SliceSums kSums>
@@ -295,15 +332,15 @@ void SlicesAny(const Frame& f, SliceSums sums, int row, int width, Rows out) {
 template <bool kDirections>
 void Classic(const Frame& f, int row, int width, Rows out) {
   const D d;
-  const RowLoader loader(f.view, row, width);
   const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
   const V inverse = hn::Set(d, 1 / (f.reach * f.reach));
   const V each = hn::Set(d, 1.0f / static_cast<float>(f.directions));
-  for (int i = 0; i < width; i += static_cast<int>(hn::Lanes(d))) {
-    const LineReceiver r = MakeReceiver(f, loader, i, loader.Depth(i));
+  ForPixels(f, row, width, [&](const Pixels& pixels) HWY_ATTR {
+    const Vec3 n = pixels.Normal(f.view);
+    const LineReceiver r = MakeReceiver(f, pixels, n, pixels.Load(f.view.depth));
     ObscuredSums sum = leaf::nothing_obscured();
     for (int k = 0; k < f.directions; ++k) {
-      const Turn turn = MakeTurn(f, row, i, k);
+      const Turn turn = MakeTurn(f, pixels, k);
       const ImageLine line = MakeLine(f, r, turn.cosine, turn.sine);
       leaf::ClassicHorizon h =
           leaf::start_classic(r, line, hn::Set(d, f.bias_sine), hn::Set(d, f.bias_cosine));
@@ -312,12 +349,11 @@ void Classic(const Frame& f, int row, int width, Rows out) {
       ForPoints<false, false>(f, r, line, turn.shift, add);
       leaf::add_obscured(leaf::finish_classic(h), turn.cosine, turn.sine, kDirections, sum);
     }
-    hn::StoreU(hn::NegMulAdd(sum.solid, each, one), d, out[0] + i);
+    pixels.Store(hn::NegMulAdd(sum.solid, each, one), out[0]);
     if constexpr (kDirections) {
-      StoreDirections(r, loader.Normal(i), sum, hn::Mul(hn::Mul(sum.solid, each), half), each, out,
-                      i);
+      StoreDirections(r, n, sum, hn::Mul(hn::Mul(sum.solid, each), half), each, pixels, out);
     }
-  }
+  });
 }
 
 void ClassicAny(const Frame& f, int row, int width, Rows out) {

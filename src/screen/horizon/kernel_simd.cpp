@@ -131,8 +131,8 @@ struct Texel {
 };
 
 // The surface points at the samples along a line, one after the other, for add(point, texel). Their
-// texels are found a batch at a time, so that no load waits for the index that was stored just
-// before it.
+// texels are found, then read a batch at a time, so that no load waits for the index that was stored
+// just before it, nor for what the point before makes of its own.
 constexpr int kBatch = 8;
 template <bool kSquared, bool kLengths, class Add>
 HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine& line, V shift,
@@ -147,6 +147,7 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
   const VI stride = hn::Set(di, static_cast<std::int32_t>(f.view.stride));
   const VI middle = hn::Set(di, f.view.height / 2);  // rows count from there, as taps' do
   HWY_ALIGN std::int32_t index[kBatch][kMaxLanes];
+  HWY_ALIGN float depth[kBatch][kMaxLanes];
   HWY_ALIGN float offset[2][kBatch][kMaxLanes];
   HWY_ALIGN float between[kBatch][kMaxLanes];
   V before = zero;
@@ -169,7 +170,10 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
       }
     }
     for (int j = 0; j < count; ++j) {
-      const V q = om::GatherLanes(d, Base(f.view), index[j]);
+      hn::Store(om::GatherLanes(d, Base(f.view), index[j]), d, depth[j]);
+    }
+    for (int j = 0; j < count; ++j) {
+      const V q = hn::Load(d, depth[j]);
       const V ku = hn::Load(d, offset[0][j]), kv = hn::Load(d, offset[1][j]);
       Texel texel{index[j], q, ku, kv, zero};
       if constexpr (kLengths) texel.between = hn::Load(d, between[j]);

@@ -122,19 +122,18 @@ HWY_INLINE Turn MakeTurn(const Frame& f, const Pixels& pixels, int k) {
           hn::Sub(shift, hn::Floor(shift))};
 }
 
-// A sample's texel: its place among all, its depth, how many pixels away, and how many farther
-// along the line than the sample before.
+// A sample's texel: its depth, how many pixels away, and of kMatter where its matter ends, if an
+// image says so, and how many pixels farther along the line it is than the sample before.
 struct Texel {
-  const std::int32_t* index;
   V depth, ku, kv;
-  V between;  // of kLengths only
+  V back, between;
 };
 
 // The surface points at the samples along a line, one after the other, for add(point, texel). Their
 // texels are found, then read a batch at a time, so that no load waits for the index that was stored
 // just before it, nor for what the point before makes of its own.
 constexpr int kBatch = 8;
-template <bool kSquared, bool kLengths, class Add>
+template <bool kSquared, bool kMatter, class Add>
 HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine& line, V shift,
                           Add add) {
   const D d;
@@ -149,7 +148,8 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
   HWY_ALIGN std::int32_t index[kBatch][kMaxLanes];
   HWY_ALIGN float depth[kBatch][kMaxLanes];
   HWY_ALIGN float offset[2][kBatch][kMaxLanes];
-  HWY_ALIGN float between[kBatch][kMaxLanes];
+  HWY_ALIGN float back[kBatch][kMaxLanes], between[kBatch][kMaxLanes];
+  const float* backs = kMatter && f.back ? f.back + (f.view.height / 2) * f.view.stride : nullptr;
   V before = zero;
   for (int first = 0; first < f.steps; first += kBatch) {
     const int count = std::min(kBatch, f.steps - first);
@@ -164,19 +164,23 @@ HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine
       hn::Store(hn::Add(hn::Mul(row, stride), hn::ConvertTo(di, x)), di, index[j]);
       hn::Store(hn::Mul(hn::Sub(x, r.u), scale_u), d, offset[0][j]);
       hn::Store(hn::Mul(hn::Sub(y, r.v), scale_v), d, offset[1][j]);
-      if constexpr (kLengths) {
+      if constexpr (kMatter) {
         hn::Store(hn::Sub(pixels, before), d, between[j]);
         before = pixels;
       }
     }
     for (int j = 0; j < count; ++j) {
       hn::Store(om::GatherLanes(d, Base(f.view), index[j]), d, depth[j]);
+      if (backs) hn::Store(om::GatherLanes(d, backs, index[j]), d, back[j]);
     }
     for (int j = 0; j < count; ++j) {
       const V q = hn::Load(d, depth[j]);
       const V ku = hn::Load(d, offset[0][j]), kv = hn::Load(d, offset[1][j]);
-      Texel texel{index[j], q, ku, kv, zero};
-      if constexpr (kLengths) texel.between = hn::Load(d, between[j]);
+      Texel texel{q, ku, kv, zero, zero};
+      if constexpr (kMatter) {
+        texel.back = backs ? hn::Load(d, back[j]) : q;
+        texel.between = hn::Load(d, between[j]);
+      }
       add(leaf::line_point(r, line, ku, kv, q, c.orthographic), texel);
     }
   }
@@ -223,43 +227,26 @@ HWY_INLINE V BackOf(const Frame& f, V depth, V given, V a, V b) {
   return hn::Max(hn::Min(given, hn::Set(d, leaf::kFarBack)), depth);
 }
 
-// The same where matter has an end; `own` is where the receiver's does. Where matter ends is looked
-// up only where a point may cover anything: behind what rises, for it and for the point before.
+// The same where matter has an end; `own` is where the receiver's does.
 template <FalloffKind kKind, SliceSums kSums>
 HWY_INLINE leaf::Obscured MatterSliceOf(const Frame& f, const LineReceiver& r,
                                         const ImageLine& line, V shift, const leaf::Slice& slice,
                                         V own) {
   const D d;
-  const DI di;
   const Camera& c = f.view.camera;
   const bool parallel = c.orthographic;
   const V one = hn::Set(d, 1.0f);
   const V footprint = hn::Set(d, std::max(c.scale_x, c.scale_y));
   const V dither = hn::Sub(shift, hn::Set(d, 0.5f));
-  const float* backs = f.back ? f.back + (f.view.height / 2) * f.view.stride : nullptr;
   leaf::SliceIntegral<kKind, true, kSums> slices(*f.rho);
   leaf::Sectors m = leaf::start_sectors(slice, true, r.z, own);
-  HWY_ALIGN std::int32_t passed[kMaxLanes];  // texels of a point that was passed without its back
-  bool has_passed = false;
   auto add = [&](const LinePoint& p, const Texel& t) HWY_ATTR __attribute__((always_inline)) {
     const M always = leaf::leaf_truth(true);
     const V depth = hn::IfThenElse(p.valid, t.depth, one);
     const V distance = parallel ? r.distance : depth;
     const V reach = leaf::reach_of_sample(line, t.between, distance);
     const V slack = leaf::slack_of_samples(hn::Mul(footprint, distance), t.between);
-    if (backs && !slices.may_cover(m, p.x, p.y, reach, depth, always, slack, p.valid)) {
-      slices.pass_point(p.x, p.y, depth, hn::Zero(d), p.valid, m);
-      hn::Store(hn::Load(di, t.index), di, passed);
-      has_passed = true;
-      return;
-    }
-    auto back_at = [&](const std::int32_t* index, V front) HWY_ATTR {
-      const V given = backs ? om::GatherLanes(d, backs, index) : front;
-      return BackOf(f, front, given, hn::Add(r.a, t.ku), hn::Add(r.b, t.kv));
-    };
-    if (has_passed) m.back = back_at(passed, m.depth);
-    has_passed = false;
-    const V back = back_at(t.index, depth);
+    const V back = BackOf(f, depth, t.back, hn::Add(r.a, t.ku), hn::Add(r.b, t.kv));
     const leaf::MatterBox box = leaf::line_box(slice, p, reach, depth, back, parallel);
     slices.add_matter(slice, box, always, slack, dither, p.valid, m);
   };

@@ -99,31 +99,6 @@ LEAF(Real) front_corner(Real x, Real y, Real reach) {
 LEAF(SectorEdge) last_edge(LEAF_IN(Sectors) m) {
   return select_sector_edge(leaf_less(m.last.place, m.full.place), m.last, m.full);
 }
-// Whether a front seen so covers anything new, with the surface that joins it to the point before.
-// What hardly rises above what is covered, as all of a plane does, is left to the next that does.
-LEAF(Truth) rises_above(LEAF_IN(Sectors) m, LEAF_IN(Sight) front, Truth joined) {
-  return leaf_either(leaf_less(m.full.cosine + real(kHorizonSlack), front.cosine),
-                     leaf_both(joined, leaf_less(m.last.place, m.full.place)));
-}
-// Whether the next point may cover anything new in any lane, wherever its matter ends: fronts
-// within `slack` touch in any case. If not, pass_point() does what add_matter() does.
-LEAF(bool)
-may_cover(LEAF_IN(Sectors) m, Real x, Real y, Real reach, Real depth, Truth next, Real slack,
-          Truth valid) {
-  Truth joined =
-      leaf_both(m.joined, leaf_both(next, leaf_less_equal(leaf_abs(depth - m.depth), slack)));
-  Sight front = sight_of(leaf_select(joined, x, front_corner(x, y, reach)), y);
-  return leaf_any(leaf_both(valid, rises_above(m, front, m.joined)));
-}
-// Leaves m.back as it is.
-LEAF(void) pass_point(Real x, Real y, Real depth, Real row, Truth valid, LEAF_INOUT(Sectors) m) {
-  m.x = leaf_select(valid, x, m.x);
-  m.y = leaf_select(valid, y, m.y);
-  m.depth = leaf_select(valid, depth, m.depth);
-  m.last_row = leaf_select(valid, row, m.last_row);
-  m.last.place = leaf_select(valid, real(kSectors), m.last.place);
-  m.joined = valid;
-}
 
 // Adds the next point outwards. It fills what is between the corners of its box, and where it
 // touches the matter of the point before (is `next` to it and within `slack` of depth), what is
@@ -137,7 +112,11 @@ add_matter(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth next, Real slack, Rea
   Truth joined = leaf_both(m.joined, leaf_both(next, leaf_less_equal(gap, slack)));
   Real front_x = leaf_select(joined, x, front_corner(x, y, box.reach));
   Sight sight = sight_of(front_x, y);
-  Truth rises = leaf_both(valid, rises_above(m, sight, joined));
+  // Whether this covers anything new. What hardly rises above what is covered, as all of a plane
+  // does, is left to the next that does.
+  Truth rises =
+      leaf_both(valid, leaf_either(leaf_less(m.full.cosine + real(kHorizonSlack), sight.cosine),
+                                   leaf_both(joined, leaf_less(m.last.place, m.full.place))));
   SectorEdge front = m.full;
   if (leaf_any(rises)) {
     SectorEdge last = last_edge(m);
@@ -154,7 +133,12 @@ add_matter(LEAF_IN(Slice) s, LEAF_IN(MatterBox) box, Truth next, Real slack, Rea
       m.top = select_sector_edge(leaf_both(rises, leaf_less(low.place, m.top.place)), low, m.top);
     }
   }
-  pass_point(x, y, box.depth, box.last_row, valid, m);
+  m.x = leaf_select(valid, x, m.x);
+  m.y = leaf_select(valid, y, m.y);
+  m.depth = leaf_select(valid, box.depth, m.depth);
+  m.last_row = leaf_select(valid, box.last_row, m.last_row);
+  m.last.place = leaf_select(valid, real(kSectors), m.last.place);
+  m.joined = valid;
   m.back = leaf_select(valid, box.back, m.back);
   m.last = select_sector_edge(rises, front, m.last);
 }

@@ -11,7 +11,6 @@ namespace obscura::horizon {
 
 inline constexpr int kMaxDirections = 64;
 using interleaved::kMaxInterleave;
-inline constexpr int kTileRow = kMaxInterleave + 16;  // a row repeats, for loads of whole vectors
 
 // The blur's edges are no longer than a twentieth of the pixel's depth.
 inline constexpr float kEdgesPerDepth = 20;
@@ -35,13 +34,13 @@ struct Frame {
   float cosine[kMaxDirections] = {}, sine[kMaxDirections] = {};
   float shift[kMaxDirections] = {};  // of the samples, in steps
   bool chord = false;                // slices: where matter is (SlabProfile)
-  float tile[kTileValues][kMaxInterleave][kTileRow] = {};
+  float tile[kTileValues][kMaxInterleave][kMaxInterleave] = {};
   float bias_sine = 0, bias_cosine = 1;  // classic
 };
 
-// Sums of one visible row as filters/interleaved/kernel.h has them; whole vectors are written
-// past the end. Slices: `open` is always cosine-weighted; kVisibility writes that channel alone.
-// Classic: all is uniform, directions are written if out[1] is there.
+// Sums of one visible row as filters/interleaved/kernel.h has them. Slices: `open` is always
+// cosine-weighted; kVisibility writes that channel alone. Classic: all is uniform, directions are
+// written if out[1] is there.
 using Rows = float* const[interleaved::kChannels];
 void slices_row(const Frame& frame, SliceSums sums, int row, int width, Rows out);
 void classic_row(const Frame& frame, int row, int width, Rows out);

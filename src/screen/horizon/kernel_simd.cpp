@@ -55,9 +55,7 @@ struct Pixels {
     }
   }
   // Of an image like view.depth.
-  HWY_INLINE V Load(const float* image) const {
-    return om::GatherLanes(D(), image + at, column);
-  }
+  HWY_INLINE V Load(const float* image) const { return om::GatherLanes(D(), image + at, column); }
   HWY_INLINE Vec3 Normal(const view::TapFrame& f) const {
     return {Load(f.normal_x), Load(f.normal_y), Load(f.normal_z)};
   }
@@ -87,8 +85,7 @@ HWY_INLINE LineReceiver MakeReceiver(const Frame& f, const Pixels& pixels, const
   const Camera& c = f.view.camera;
   const V one = hn::Set(d, 1.0f);
   const V perspective = hn::Set(d, c.orthographic ? 0.0f : 1.0f);
-  const V u =
-      hn::ConvertTo(d, hn::Add(hn::Load(di, pixels.column), hn::Set(di, f.view.left)));
+  const V u = hn::ConvertTo(d, hn::Add(hn::Load(di, pixels.column), hn::Set(di, f.view.left)));
   const V v = hn::Set(d, static_cast<float>(f.view.top + pixels.row));
   const V a = hn::Mul(perspective,
                       hn::Mul(hn::Sub(u, hn::Set(d, c.center_u - 0.5f)), hn::Set(d, c.scale_x)));
@@ -113,8 +110,9 @@ struct Turn {
 };
 HWY_INLINE Turn MakeTurn(const Frame& f, const Pixels& pixels, int k) {
   const D d;
-  auto tile = [&](int value)
-                  HWY_ATTR { return hn::Set(d, f.tile[value][pixels.row % f.interleave][pixels.phase]); };
+  auto tile = [&](int value) HWY_ATTR {
+    return hn::Set(d, f.tile[value][pixels.row % f.interleave][pixels.phase]);
+  };
   const V c = hn::Set(d, f.cosine[k]), s = hn::Set(d, f.sine[k]);
   const V tc = tile(kTileCos), ts = tile(kTileSin);
   const V shift = hn::Add(tile(kTileShift), hn::Set(d, f.shift[k]));
@@ -130,8 +128,8 @@ struct Texel {
 };
 
 // The surface points at the samples along a line, one after the other, for add(point, texel). Their
-// texels are found, then read a batch at a time, so that no load waits for the index that was stored
-// just before it, nor for what the point before makes of its own.
+// texels are found, then read a batch at a time, so that no load waits for the index that was
+// stored just before it, nor for what the point before makes of its own.
 constexpr int kBatch = 8;
 template <bool kSquared, bool kMatter, class Add>
 HWY_INLINE void ForPoints(const Frame& f, const LineReceiver& r, const ImageLine& line, V shift,

@@ -44,9 +44,7 @@ void set_pattern(const HorizonSettings& s, horizon::Frame* f) {
     const double turn = between * (turns[cell] + 0.5) / cells;
     const double values[] = {std::cos(turn), std::sin(turn), (shifts[cell] + 0.5) / cells};
     for (int v = 0; v < horizon::kTileValues; ++v) {
-      for (int x = cell % m; x < horizon::kTileRow; x += m) {
-        f->tile[v][cell / m][x] = static_cast<float>(values[v]);
-      }
+      f->tile[v][cell / m][cell % m] = static_cast<float>(values[v]);
     }
   }
 }

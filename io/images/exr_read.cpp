@@ -15,6 +15,7 @@
 #include "io/images/atomic_file.h"
 #include "io/images/exr.h"
 #include "io/images/exr_native.h"
+#include "io/images/unfolding.h"
 
 namespace obscura::tools {
 namespace {
@@ -103,7 +104,11 @@ Status check_plausible(const std::string& path, const Imf::Header& native, const
   }
   const double claimed =
       pixel_bytes * static_cast<double>(h.data_window.width()) * h.data_window.height();
-  if (error || claimed <= bytes * most_compression(native.compression())) return {};
+  if (error) return {};
+  if (claimed <= bytes * most_compression(native.compression())) {
+    return check_unfolding(path, h.data_window.width(), h.data_window.height(), pixel_bytes / 4,
+                           bytes);
+  }
   return invalid_input(
       fmt::format("{}: truncated: {:.0f} bytes cannot hold {} channels of {}x{} pixels", path,
                   bytes, h.channels.size(), h.data_window.width(), h.data_window.height()));

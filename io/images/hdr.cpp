@@ -1,6 +1,7 @@
 // G. Ward, "Real Pixels", Graphics Gems II, and the file format of Radiance.
 #include "io/images/hdr.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -8,11 +9,49 @@
 #include <vector>
 
 #include "fmt/format.h"
+#include "io/images/unfolding.h"
 
 namespace obscura::tools {
 namespace {
 
 using Pixel = std::array<std::uint8_t, 4>;  // three mantissas and their exponent
+
+constexpr double kMostRadiance = 3e38;  // a float's
+
+// The number at the start of `text`, which is shortened by it; false where there is none.
+bool next_number(std::string_view* text, double* value) {
+  while (text->starts_with(' ') || text->starts_with('\t')) text->remove_prefix(1);
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), *value);
+  text->remove_prefix(static_cast<std::size_t>(end - text->data()));
+  return error == std::errc();
+}
+
+// What has been multiplied into the pixels of each channel, by lines that add up.
+struct Multipliers {
+  std::array<double, 3> of = {1, 1, 1};
+
+  // False if the line is such a one and its numbers are not positive and finite.
+  bool read(std::string_view line) {
+    std::array<double, 3> values = {};
+    if (line.starts_with("EXPOSURE=")) {
+      line.remove_prefix(9);
+      if (!next_number(&line, &values[0])) return false;
+      values[1] = values[2] = values[0];
+    } else if (line.starts_with("COLORCORR=")) {
+      line.remove_prefix(10);
+      for (double& value : values) {
+        if (!next_number(&line, &value)) return false;
+      }
+    } else {
+      return true;
+    }
+    for (int c = 0; c < 3; ++c) {
+      of[c] *= values[c];
+      if (!(of[c] >= 1e-30 && of[c] <= 1e30)) return false;
+    }
+    return true;
+  }
+};
 
 // The next line, without its end; false where there is none.
 bool next_line(std::string_view bytes, std::size_t* at, std::string_view* line) {
@@ -106,9 +145,14 @@ Status decode_hdr(std::string_view bytes, const std::string& name, Image* image)
   std::string_view line;
   if (!bytes.starts_with("#?") || !next_line(bytes, &at, &line))
     return bad("it must begin with #?");
+  Multipliers multipliers;
   while (next_line(bytes, &at, &line) && !line.empty()) {
     if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") {
       return bad(fmt::format("{}; it must be 32-bit_rle_rgbe", line.substr(0, 60)));
+    }
+    if (!multipliers.read(line)) {
+      return bad(fmt::format("{}; the numbers must be positive, in [1e-30, 1e30] in all",
+                             line.substr(0, 60)));
     }
   }
   int width = 0, height = 0;
@@ -121,6 +165,10 @@ Status decode_hdr(std::string_view bytes, const std::string& name, Image* image)
   }
   // A row takes at least a pixel; then memory grows with what has been read.
   if (bytes.size() - at < static_cast<std::size_t>(height) * 4) return bad("truncated");
+  if (Status s = check_unfolding(name, width, height, 3, static_cast<double>(bytes.size()));
+      !s.ok()) {
+    return s;
+  }
   Image result(width, 0);
   for (const char* channel : {"R", "G", "B"}) result.add(channel);
   Scanlines scanlines(bytes, at);
@@ -130,7 +178,8 @@ Status decode_hdr(std::string_view bytes, const std::string& name, Image* image)
     for (int c = 0; c < 3; ++c) {
       std::vector<float>& out = result.channels[c].values;
       for (const Pixel& p : row) {
-        out.push_back(p[3] == 0 ? 0.0f : std::ldexp(static_cast<float>(p[c]), p[3] - 136));
+        const double value = p[3] == 0 ? 0.0 : std::ldexp(static_cast<double>(p[c]), p[3] - 136);
+        out.push_back(static_cast<float>(std::min(value / multipliers.of[c], kMostRadiance)));
       }
     }
   }

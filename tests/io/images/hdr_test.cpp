@@ -41,6 +41,30 @@ TEST(Hdr, RunsPerComponent) {
   EXPECT_EQ(image.view(2)(2, 0), 0);
 }
 
+// Radiances are the file's values divided by all EXPOSURE and COLORCORR lines.
+TEST(Hdr, ExposuresAreTakenOut) {
+  Image image;
+  std::string file = kCoded;
+  file.insert(file.find("FORMAT="), "EXPOSURE=2\nEXPOSURE= 4.0\nCOLORCORR= 0.5 1 2\n");
+  const Status s = decode_hdr(file, "x", &image);
+  ASSERT_TRUE(s.ok()) << s.message();
+  EXPECT_EQ(image.view(0)(2, 0), 1 / 4.0f);
+  EXPECT_EQ(image.view(1)(1, 0), 2 / 128.0f / 8);
+  EXPECT_EQ(image.view(2)(1, 0), 9 / 128.0f / 16);
+  for (const char* line : {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=", "EXPOSURE=inf",
+                           "COLORCORR=1 1", "EXPOSURE=1e-40"}) {
+    expect_refused(std::string("#?RADIANCE\n") + line + "\n\n-Y 1 +X 1\n" + bytes({1, 1, 1, 128}),
+                   line);
+  }
+}
+
+// Two rows of a pixel and runs of it: 8 + 4 bytes that stand for 65535 pixels each.
+TEST(Hdr, AFewBytesThatUnfoldToAnImageThatFillsTheMemoryAreRefused) {
+  std::string file = kHeader + "-Y 2000 +X 65535\n";
+  for (int y = 0; y < 2000; ++y) file += bytes({9, 9, 9, 128, 1, 1, 1, 254, 1, 1, 1, 255});
+  expect_refused(file, "times as large as its file");
+}
+
 TEST(Hdr, EveryShorterFileIsRefused) {
   for (std::size_t keep = 0; keep < kCoded.size(); ++keep) {
     Image image;

@@ -121,6 +121,16 @@ TEST(Png, AHeaderThatClaimsTooMuchIsRefused) {
   }
 }
 
+// A white image of 17,000 x 17,000 pixels in about 40 kB.
+TEST(Png, AFewBytesThatUnfoldToAnImageThatFillsTheMemoryAreRefused) {
+  std::string rows;
+  for (int y = 0; y < 17000; ++y) rows += std::string(1 + 17000 / 8, '\0');
+  Image image;
+  const Status s = decode_png(png_file(17000, 17000, 1, 0, "", rows), "x.png", &image);
+  EXPECT_EQ(s.code(), StatusCode::kInvalidInput);
+  EXPECT_NE(s.message().find("x.png: 17000x17000 pixels from"), std::string::npos) << s.message();
+}
+
 TEST(Png, RefusesWhatItCannotHold) {
   std::string bytes;
   EXPECT_EQ(encode_png(ramp(2, 2, {"a", "b"}), 8, &bytes).code(), StatusCode::kInvalidArgument);

@@ -1,6 +1,7 @@
 #include "apps/obscura/input.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fmt/format.h"
 #include "io/images/depth_file.h"
@@ -93,6 +94,12 @@ Status InputOptions::render(const std::string& path, const LayerNeeds& needs, in
   }
   tools::DepthInput& gbuffer = rendering->gbuffer;
   gbuffer.name = path;
+  if (std::ranges::none_of(gbuffer.depth, [](float depth) { return std::isfinite(depth); })) {
+    fmt::print(stderr,
+               "obscura: note: the picture shows nothing of {}; --eye and --look-at say where the "
+               "camera stands and looks\n",
+               path);
+  }
   if (use == "none") input->normal_use = NormalUse::kNone;
   if (use == "depth") {
     for (auto* n : {&gbuffer.normal_x, &gbuffer.normal_y, &gbuffer.normal_z}) n->clear();

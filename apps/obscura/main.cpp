@@ -4,6 +4,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "apps/obscura/app.h"
 #include "apps/obscura/file_checks.h"
@@ -17,10 +18,33 @@
 namespace obscura::app {
 namespace {
 
+// UTF-8 stays; '?' for bytes that are none, and for U+0080 to U+009F, which steer terminals.
+std::string valid_utf8(const std::string& text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t i) {
+      return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+    };
+    const unsigned first = byte(0);
+    std::size_t length = first < 0x80   ? 1
+                         : first < 0xC2 ? 0
+                         : first < 0xE0 ? 2
+                         : first < 0xF0 ? 3
+                                        : 4;
+    if (first > 0xF4 || (first == 0xC2 && byte(1) < 0xA0)) length = 0;
+    for (std::size_t i = 1; i < length; ++i) {
+      if ((byte(i) & 0xC0) != 0x80) length = 0;
+    }
+    result += length > 0 ? text.substr(at, length) : "?";
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
 // One line on stderr, whatever the message holds: no byte that could steer a terminal, long words
 // (paths, tokens of damaged files) cut in their middle, at most 300 characters.
 int fail(const std::string& message, int code) {
-  constexpr std::size_t kLongestWord = 120, kLongest = 300;
+  constexpr std::size_t kLongestWord = 120, kLongest = 300 - std::string_view("obscura: ").size();
   std::string line;
   for (std::size_t at = 0; at < message.size();) {
     const std::size_t end = std::min(message.find(' ', at), message.size());
@@ -36,7 +60,7 @@ int fail(const std::string& message, int code) {
   }
   while (!line.empty() && line.back() == ' ') line.pop_back();
   if (line.size() > kLongest) line = line.substr(0, kLongest - 3) + "...";
-  fmt::print(stderr, "obscura: {}\n", line);
+  fmt::print(stderr, "obscura: {}\n", valid_utf8(line));
   return code;
 }
 

@@ -53,10 +53,13 @@ Status check_outer(const VolumeSettings& settings) {
 // What is said where no ray meets the surface: of a camera that was placed, where the volume lies.
 Status misses_the_surface(const VolumeCommand& c, const tools::VolumeImage& image) {
   if (!c.table.given("eye") && !c.table.given("look_at")) {
-    return invalid_input(
-        fmt::format("{}: its surface is smaller than a pixel; its matter is few voxels among NaN. "
-                    "Choose another --iso, or clip the NaN away by --clip",
-                    image.name));
+    tools::Histogram values;
+    if (Status s = tools::make_histogram(image, &values); !s.ok()) return s;
+    return invalid_input(fmt::format(
+        "{}: its surface is so small that it lies between the pixels; choose another --iso or a "
+        "larger --size{}",
+        image.name,
+        values.nan > 0 ? ", or clip its NaN, at which surfaces end, away by --clip" : ""));
   }
   tools::Double3 low, high;
   low.fill(INFINITY);

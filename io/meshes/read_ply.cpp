@@ -23,8 +23,8 @@ class AsciiValues {
     if (type == PlyType::kF32) *value = static_cast<float>(*value);
     return true;
   }
-  // The fewest bytes that so many values of a list take, beside what follows.
-  static std::uint64_t least_bytes(PlyType, std::uint64_t count) { return 2 * count; }
+  // The fewest bytes that a value of a list takes: a digit and what parts it from the next.
+  static double least_bytes(PlyType) { return 2; }
   std::string failure() const {
     return word_.empty() ? "is cut short" : fmt::format("has '{}' for a number", printable(word_));
   }
@@ -55,9 +55,7 @@ class BinaryValues {
     at_ += size;
     return true;
   }
-  static std::uint64_t least_bytes(PlyType type, std::uint64_t count) {
-    return count * std::uint64_t(kPlyBytes[int(type)]);
-  }
+  static double least_bytes(PlyType type) { return kPlyBytes[int(type)]; }
   static std::string failure() { return "is cut short"; }
 
  private:
@@ -168,8 +166,9 @@ class BodyReader {
   Status read_list(const PlyElement& e, const PlyProperty& p, std::uint64_t index, bool keep) {
     double length = 0;
     if (!values_.next(*p.count, &length)) return failed(e, index);
-    if (!(length >= 0) || Values::least_bytes(p.type, std::uint64_t(length)) > body_bytes_ + 1) {
-      return wrong(fmt::format("'{}' {} has a list of {:.0f} entries, more than the file holds",
+    // In double, which a length of 1e300 does not overflow.
+    if (!(length >= 0 && length * Values::least_bytes(p.type) <= double(body_bytes_) + 1)) {
+      return wrong(fmt::format("'{}' {} has a list of {:.15g} entries, more than the file holds",
                                printable(e.name), index, length));
     }
     for (std::uint64_t i = 0; i < std::uint64_t(length); ++i) {
@@ -195,7 +194,7 @@ class BodyReader {
         }
         if (!(corner >= 0 && corner < double(builder_.vertex_count()))) {
           return wrong(
-              fmt::format("face {} names vertex {:.0f} of {}", f, corner, builder_.vertex_count()));
+              fmt::format("face {} names vertex {:.15g} of {}", f, corner, builder_.vertex_count()));
         }
         polygon.push_back(std::uint32_t(corner));
       }

@@ -53,6 +53,34 @@ TEST_F(MessagesTest, Isovalues) {
                  "misses the surface");
 }
 
+// A voxel whose surface no ray of a coarse picture meets; NaN is named only where there is some.
+TEST_F(MessagesTest, SurfacesBetweenPixels) {
+  std::vector<float> voxel(512, 0.0f);
+  voxel[(3 * 8 + 4) * 8 + 4] = 100;
+  write("voxel.nrrd", nrrd("1 1 1") + floats(voxel));
+  const std::string line = "volume voxel.nrrd --iso 99.9 --size 4x4 -o o.png";
+  expect_failure(line, 3, "a larger --size\n");
+  voxel[0] = std::numeric_limits<float>::quiet_NaN();
+  write("voxel.nrrd", nrrd("1 1 1") + floats(voxel));
+  expect_failure(line, 3, "clip its NaN");
+}
+
+TEST_F(MessagesTest, PicturesOfNothing) {
+  write("t.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string line =
+      "ao t.obj --eye 0,0,3 --size 16x16 -q -o o.pfm --look-at ";
+  const CommandResult away = run(line + "0,0,9");
+  EXPECT_EQ(away.code, 0);
+  EXPECT_NE(away.err.find("shows nothing of t.obj"), std::string::npos) << away.err;
+  expect_success(line + "0,0,0");
+}
+
+TEST_F(MessagesTest, MessagesAreUtf8WithoutControls) {
+  const CommandResult r = run("info 'n\xC3\xA9\xC2\x9B\xFFx.exr'");
+  EXPECT_EQ(r.code, 3);
+  EXPECT_NE(r.err.find("n\xC3\xA9???x.exr"), std::string::npos) << r.err;
+}
+
 TEST_F(MessagesTest, Spacings) {
   for (const char* spacings : {"0 1 1", "1e-30 1 1", "1 1 1e30", "inf 1 1"}) {
     write("s.nrrd", nrrd(spacings) + floats(ramp_));

@@ -145,6 +145,12 @@ TEST_F(Ply, HeadersThatLieAreRefusedInOneSentence) {
   refuse("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before any element");
   refuse("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
          "no x, y and z");
+  // Lengths that no whole number holds, or whose bytes none holds.
+  for (const char* length :
+       {"9223372036854775808", "18446744073709551616", "1e300", "inf", "nan"}) {
+    refuse(head + "element face 1\n" + list + "0 0 0\n1 0 0\n0 1 0\n" + length + " 0 1 2\n",
+           "more than the file holds");
+  }
   refuse(head + "element face 1\n" + list + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n",
          "is cut short in 'face' 0");
   refuse(head + "element face 1\n" + list + "0 0 0\n1 0 \x1b[2J\n0 1 0\n3 0 1 2\n",

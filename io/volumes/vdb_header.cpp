@@ -45,6 +45,10 @@ Status parse_vdb_header(const std::string& path, const std::string& text, Volume
   }
   in.get();
   std::getline(in, line);
+  const bool known = code >= 0 && code <= static_cast<int>(StatusCode::kInternal);
+  if (!known || (code != 0 && line.empty())) {
+    return {StatusCode::kInternal, fmt::format("{}: obscura-vdb failed without a reason", path)};
+  }
   if (code != 0) return {static_cast<StatusCode>(code), line};
   VolumeImage result;
   result.name = path;

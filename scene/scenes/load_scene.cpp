@@ -32,27 +32,6 @@ Status find_kind(const std::string& name, const SceneKind** kind) {
   return invalid_argument(fmt::format("there is no scene \"{}\"; the scenes are {}", name, names));
 }
 
-Status split(const std::string& spec, std::string* name, SceneParameters* parameters) {
-  std::string_view rest = std::string_view(spec).substr(kPrefix.size());
-  const std::size_t question = rest.find('?');
-  *name = rest.substr(0, question);
-  if (question == std::string_view::npos) return {};
-  rest.remove_prefix(question + 1);
-  while (!rest.empty()) {
-    const std::string_view pair = rest.substr(0, rest.find('&'));
-    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
-    const std::size_t equals = pair.find('=');
-    if (equals == std::string_view::npos || equals == 0) {
-      return invalid_argument(fmt::format("{}: \"{}\" is not of the form key=value", spec, pair));
-    }
-    const std::string key(pair.substr(0, equals));
-    if (!parameters->emplace(key, pair.substr(equals + 1)).second) {
-      return invalid_argument(fmt::format("{}: {} is given twice", spec, key));
-    }
-  }
-  return {};
-}
-
 Status check_keys(const std::string& spec, const SceneKind& kind,
                   const SceneParameters& parameters) {
   std::vector<std::string> known;
@@ -76,7 +55,7 @@ Status build_and_render(const std::string& spec, const ViewOptions& given, Execu
   std::string name;
   SceneParameters parameters;
   const SceneKind* kind = nullptr;
-  if (Status s = split(spec, &name, &parameters); !s.ok()) return s;
+  if (Status s = split_scene(spec, &name, &parameters); !s.ok()) return s;
   if (Status s = find_kind(name, &kind); !s.ok()) return s;
   if (Status s = check_keys(spec, *kind, parameters); !s.ok()) return s;
   ViewOptions options = given;
@@ -100,6 +79,27 @@ Status build_and_render(const std::string& spec, const ViewOptions& given, Execu
 }
 
 }  // namespace
+
+Status split_scene(const std::string& spec, std::string* name, SceneParameters* parameters) {
+  std::string_view rest = std::string_view(spec).substr(kPrefix.size());
+  const std::size_t question = rest.find('?');
+  *name = rest.substr(0, question);
+  if (question == std::string_view::npos) return {};
+  rest.remove_prefix(question + 1);
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find('&'));
+    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string_view::npos || equals == 0) {
+      return invalid_argument(fmt::format("{}: \"{}\" is not of the form key=value", spec, pair));
+    }
+    const std::string key(pair.substr(0, equals));
+    if (!parameters->emplace(key, pair.substr(equals + 1)).second) {
+      return invalid_argument(fmt::format("{}: {} is given twice", spec, key));
+    }
+  }
+  return {};
+}
 
 bool is_scene(const std::string& spec) { return spec.starts_with(kPrefix); }
 

@@ -26,6 +26,9 @@ int main(int argc, char** argv) {
     std::fputs("obscura-vdb: reads OpenVDB files for obscura; not for use by hand\n", stderr);
     return 2;
   }
+  // OpenVDB writes its warnings to standard output, where they would stand before the answer.
+  std::FILE* answer = fdopen(dup(STDOUT_FILENO), "wb");
+  if (!answer || !std::freopen("/dev/null", "w", stdout)) return 2;
   std::error_code error;
   const auto bytes = static_cast<double>(std::filesystem::file_size(argv[1], error));
   // Deflated and sparse trees become some tens of times as large in memory.
@@ -42,9 +45,9 @@ int main(int argc, char** argv) {
       },
       &image);
   const std::string header = obscura::tools::write_vdb_header(status, image);
-  std::fwrite(header.data(), 1, header.size(), stdout);
-  if (status.ok()) std::fwrite(image.samples.data(), 1, image.samples.size(), stdout);
-  const bool whole = std::fflush(stdout) == 0;
+  std::fwrite(header.data(), 1, header.size(), answer);
+  if (status.ok()) std::fwrite(image.samples.data(), 1, image.samples.size(), answer);
+  const bool whole = std::fflush(answer) == 0;
   // Without the destructors of a tree that may be damaged.
   _exit(whole ? 0 : 1);
 }

@@ -27,6 +27,7 @@ void add_threads_option(CLI::App* command, int* threads);
 
 // Each adds its subcommand; see the file of the same name.
 void add_ao(App& app);
+void add_bake(App& app);
 void add_compare(App& app);
 void add_demo(App& app);
 void add_gbuffer(App& app);

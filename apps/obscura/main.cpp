@@ -85,6 +85,7 @@ int run(int argc, char** argv) {
   app.cli.set_help_all_flag("--help-all", "Help of every command");
   add_ao(app);
   add_gbuffer(app);
+  add_bake(app);
   add_compare(app);
   add_info(app);
   add_light(app);

@@ -41,7 +41,7 @@ Status run_bake(const BakeCommand& c, bool quiet) {
                     without, mesh.positions.size()));
   }
   for (const std::string& note : mesh.notes) {
-    if (!quiet) fmt::print(stderr, "obscura: note: {}\n", note);
+    fmt::print(stderr, "obscura: note: {}\n", note);
   }
   std::vector<float> positions;
   positions.reserve(normals.size());

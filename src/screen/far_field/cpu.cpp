@@ -19,11 +19,11 @@ constexpr int kRowsPerTask = 8;
 
 // The intervals of a segment for receivers of a row whose first is at texel u.
 int list_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
-                   int interval, int row, int u, bool finite, ScanBuffer* buffer,
+                   const Climb& climb, int row, int u, bool finite, ScanBuffer* buffer,
                    IntervalRead* reads) {
   IntervalLines found[kMaxIntervals];
   const int count =
-      find_intervals(direction, segment, layout, buffer->pyramid(), interval, row, u, found);
+      find_intervals(direction, segment, layout, buffer->pyramid(), climb, row, u, found);
   const int phases = buffer->phases();
   // Of a line: its phase and its place among that phase's lines, also left of the first line.
   auto phase_of = [&](int line) { return ((line % phases) + phases) % phases; };
@@ -203,8 +203,8 @@ class FarFieldMethod final : public Method {
                    .dither = dither(direction, segment),
                    .out = {}};
       if (far) {
-        job.interval_count = list_intervals(direction, segment, layout, interval, row, u, p.finite,
-                                            &buffer_, intervals);
+        job.interval_count = list_intervals(direction, segment, layout, Climb(settings_), row, u,
+                                            p.finite, &buffer_, intervals);
       }
       if (!separable()) {
         add(job, &p.sums);

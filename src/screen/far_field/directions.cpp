@@ -9,16 +9,44 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Distances of the near field's samples from the receiver, in pixels, up to `end`.
-std::vector<double> near_distances(const NearStep& step, double end) {
-  std::vector<double> distances;
-  if (step.px > 0) {
-    for (int i = 1; i * double(step.px) < end; ++i) distances.push_back(i * double(step.px));
-    return distances;
+// The adaptive samples: one close by, so that no chord starts at the receiver itself, then where
+// the slice crosses rows of texels and, near by, columns, for the surface bends there and nowhere
+// else.
+constexpr double kFirstSample = 0.125;  // pixels
+constexpr double kColumnsWithin = 16;   // pixels; what a sample subtends shrinks with distance
+constexpr double kLeastBetweenSamples = 0.1;  // pixels
+
+// Rounded so that samples on lattice lines stay on them, mirrored ones too.
+double to_lattice(double x) { return std::round(x * 4096) / 4096; }
+
+NearTap tap_at(double u, double v) {
+  const int du = static_cast<int>(std::floor(u)), dv = static_cast<int>(std::floor(v));
+  return {float(v), du, dv, float(u - du), float(v - dv)};
+}
+
+// Of a slice whose column changes by `slope` per row, and that goes on for `end` rows; a pixel of
+// it is `rows` rows long.
+std::vector<NearTap> taps_on_crossings(double slope, double rows, double end) {
+  struct Point {
+    double u, v;
+  };
+  std::vector<Point> crossings;
+  for (int v = 1; v < end; ++v) crossings.push_back({to_lattice(v * slope), double(v)});
+  for (int column = 1;; ++column) {
+    const double v = to_lattice(column / std::max(std::abs(slope), 1e-9));
+    if (v > std::min(kColumnsWithin * rows, end)) break;
+    crossings.push_back({std::copysign(column, slope), v});
   }
-  // Adaptive: what a sample subtends shrinks with its distance.
-  for (double t = 0.25; t < end; t += std::max(0.25, 0.07 * t)) distances.push_back(t);
-  return distances;
+  std::sort(crossings.begin(), crossings.end(), [](Point a, Point b) { return a.v < b.v; });
+  const double first = to_lattice(kFirstSample * rows);
+  std::vector<NearTap> taps = {tap_at(to_lattice(first * slope), first)};
+  double last = 0;
+  for (const Point& p : crossings) {
+    if (p.v - last < kLeastBetweenSamples * rows) continue;
+    taps.push_back(tap_at(p.u, p.v));
+    last = p.v;
+  }
+  return taps;
 }
 
 std::vector<NearTap> make_taps(const FarFieldSettings& s, double angle) {
@@ -28,17 +56,15 @@ std::vector<NearTap> make_taps(const FarFieldSettings& s, double angle) {
   if (s.occluder.kind != OccluderKind::kSolid) {
     // Matter that ends is met texel by texel, where the slice crosses rows.
     for (int v = 1; v <= longest_near_field(s.interval); ++v) {
-      const double u = std::round(v * slope * 4096) / 4096, du = std::floor(u);
-      taps.push_back({float(v), static_cast<int>(du), v, float(u - du), 0});
+      taps.push_back(tap_at(to_lattice(v * slope), v));
     }
     return taps;
   }
-  for (double distance : near_distances(s.near_step, longest_near_field(s.interval) / rows)) {
-    // Rounded so that samples on lattice lines stay on them, mirrored ones too.
-    const double v = std::round(distance * rows * 4096) / 4096;
-    const double u = std::round(v * slope * 4096) / 4096;
-    const int du = static_cast<int>(std::floor(u)), dv = static_cast<int>(std::floor(v));
-    taps.push_back({float(v), du, dv, float(u - du), float(v - dv)});
+  const double end = longest_near_field(s.interval), step = s.near_step.px;
+  if (step == 0) return taps_on_crossings(slope, rows, end);
+  for (int i = 1; i * step < end / rows; ++i) {
+    const double v = to_lattice(i * step * rows);
+    taps.push_back(tap_at(to_lattice(v * slope), v));
   }
   return taps;
 }

@@ -134,8 +134,8 @@ int FarFieldTables::add_intervals(const Direction& d, const Segment& segment,
                                   const LineLayout& layout, const StripLevels& levels, int row,
                                   int u, std::vector<int>* restarts) {
   IntervalLines found[far_field::kMaxIntervals];
-  const int count =
-      far_field::find_intervals(d, segment, layout, levels, settings_.interval, row, u, found);
+  const int count = far_field::find_intervals(d, segment, layout, levels,
+                                              far_field::Climb(settings_), row, u, found);
   for (int i = 0; i < count; ++i) {
     const IntervalLines& f = found[i];
     const int lines = f.last + 1 - f.first;

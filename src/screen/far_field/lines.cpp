@@ -32,7 +32,9 @@ int first_strip(const Direction& direction, int interval, int row) {
 }  // namespace
 
 int find_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
-                   const StripLevels& levels, int interval, int row, int u, IntervalLines* found) {
+                   const StripLevels& levels, const Climb& climb, int row, int u,
+                   IntervalLines* found) {
+  const int interval = climb.interval;
   int count = 0, level = 0, strip = first_strip(direction, interval, row);
   while (strip < levels.strips(level) && count < kMaxIntervals) {
     const double size = static_cast<double>(interval) * (1 << level);
@@ -45,7 +47,8 @@ int find_intervals(const Direction& direction, const Segment& segment, const Lin
     if (first > last) first = last = middle;
     found[count++] = {level, strip, first, last, middle, away};
     ++strip;
-    if (strip % 2 == 0 && level + 1 < levels.levels()) {
+    const double distance = strip * size - direction.strip_offset - row;
+    if (strip % 2 == 0 && level + 1 < levels.levels() && distance >= climb.lengths * 2 * size) {
       strip /= 2;
       ++level;
     }

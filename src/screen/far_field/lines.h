@@ -42,11 +42,20 @@ struct IntervalLines {
   double away;  // rows from the receiver to the strip's middle
 };
 
+// How intervals grow: from `interval` rows on, one doubles where it then is `lengths` of its new
+// lengths away or more. With matter that ends more of them gain nothing.
+struct Climb {
+  explicit Climb(const FarFieldSettings& s)
+      : interval(s.interval), lengths(s.occluder.kind == OccluderKind::kSolid ? 2 : 0) {}
+  int interval, lengths;
+};
+
 // Which intervals a segment reads for the receiver at texel u of a row (`row` counted outwards):
-// the nearest is at least one interval away; every second one climbs a level of the pyramid
+// the nearest is at least one interval away; every second one may climb a level of the pyramid
 // (Timonen 2013, section 6). Returns how many, at most kMaxIntervals.
 int find_intervals(const Direction& direction, const Segment& segment, const LineLayout& layout,
-                   const StripLevels& levels, int interval, int row, int u, IntervalLines* found);
+                   const StripLevels& levels, const Climb& climb, int row, int u,
+                   IntervalLines* found);
 
 // Rows outwards of a row to its first interval or to the image's edge.
 int near_rows(const Direction& direction, int interval, int row, int height);

@@ -22,23 +22,21 @@ std::string SettingText<NearStep>::write(const NearStep& value) {
 namespace {
 
 FarFieldSettings with_preset(FarFieldSettings s) {
+  if (s.preset != FarFieldPreset::kNone) s.near_step = NearStep::adaptive();
   switch (s.preset) {
     case FarFieldPreset::kNone:
       break;
     case FarFieldPreset::kFast:
       s.directions = 8;
       s.segments = 1;
-      s.near_step = NearStep::of(1);
       break;
     case FarFieldPreset::kBalanced:
       s.directions = 16;
       s.segments = 1;
-      s.near_step = NearStep::of(0.5f);
       break;
     case FarFieldPreset::kHigh:
       s.directions = 16;
       s.segments = 3;
-      s.near_step = NearStep::of(0.25f);
       break;
   }
   return s;

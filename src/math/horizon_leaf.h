@@ -18,6 +18,7 @@ LEAF(Horizon) start_horizon(LEAF_IN(Slice) s, bool from_receiver) {
   Real zero = real(0.0f);
   Horizon h;
   h.cosine = real(-2.0f);
+  h.slack = real(kHorizonSlack);
   h.edge = hemisphere_end(s);
   h.x = zero;
   h.y = zero;
@@ -110,7 +111,7 @@ add_point(LEAF_IN(Slice) s, Real x, Real y, Truth valid, bool partial, Real shar
       Truth part = leaf_both(visible, leaf_less(share, one));
       if (leaf_any(part)) {
         // The horizon of the slice as a whole: the mean angle of its covered and its open part.
-        Real before = fast_acos(leaf_max(h.cosine + real(kHorizonSlack), real(-1.0f)));
+        Real before = fast_acos(leaf_max(h.cosine + h.slack, real(-1.0f)));
         Real between = leaf_fma(share, angle - before, before);
         Real half_sine, half_cosine;
         leaf_sin_cos(real(0.5f) * between, half_sine, half_cosine);
@@ -130,7 +131,9 @@ add_point(LEAF_IN(Slice) s, Real x, Real y, Truth valid, bool partial, Real shar
       h.integral_y = leaf_select(moves, along_y, h.integral_y);
     }
   }
-  h.cosine = leaf_select(visible, horizon - real(kHorizonSlack), h.cosine);
+  Real slack = leaf_fma(real(kDepthSlack), s.camera * inverse, real(kHorizonSlack));
+  h.cosine = leaf_select(visible, horizon - slack, h.cosine);
+  h.slack = leaf_select(visible, slack, h.slack);
   h.x = x;
   h.y = y;
   h.chord = visible;

@@ -107,14 +107,17 @@ LEAF(Real) across_line(LEAF_IN(MatterLine) line, Real wx, Real wy) {
 // Of the horizon's cosine.
 const float kLeastRise = 5e-4f;
 // What lies this little below the horizon is visible: of a plane every point, whatever rounding
-// does.
+// does. The second part is of the distance to the camera, over that to the point: rounding of
+// depths turns a point that is close by far more than one farther away.
 const float kHorizonSlack = 1e-5f;
+const float kDepthSlack = 3e-7f;
 // Half the angle of pieces for which the middle alone is enough.
 const float kSmallPiece = 0.25f;
 
 // The smallest theta so far, and what stands above it (math/horizon_leaf.h).
 struct Horizon {
-  Real cosine;  // of the smallest theta, less kHorizonSlack; -2 before the first point
+  Real cosine;  // of the smallest theta, less `slack`; -2 before the first point
+  Real slack;   // what lies this little below the horizon is visible
   Edge edge;    // the same clipped to the hemisphere
   Real x, y;    // the point before
   Truth chord;  // the point before was visible

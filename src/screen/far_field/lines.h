@@ -42,11 +42,14 @@ struct IntervalLines {
   double away;  // rows from the receiver to the strip's middle
 };
 
-// How intervals grow: from `interval` rows on, one doubles where it then is `lengths` of its new
-// lengths away or more. With matter that ends more of them gain nothing.
+// How intervals grow: from `interval` rows on, every second one doubles, but only from where it is
+// `lengths` of its new lengths away on. The paper's profile takes them as published; with matter
+// that ends more of them gain nothing.
 struct Climb {
   explicit Climb(const FarFieldSettings& s)
-      : interval(s.interval), lengths(s.occluder.kind == OccluderKind::kSolid ? 2 : 0) {}
+      : interval(s.interval),
+        lengths(s.occluder.kind == OccluderKind::kSolid && s.profile != SlabProfile::kSlab ? 2
+                                                                                           : 0) {}
   int interval, lengths;
 };
 

@@ -33,7 +33,7 @@ struct EnumNames<FarFieldPreset> {
 // Distance between the direct samples of the near field.
 struct NearStep {
   static constexpr Range kRange = closed(0.125, 8);
-  float px = 0;  // in kRange, or 0: adaptive, a quarter pixel at first and growing outwards
+  float px = 0;  // in kRange, or 0: adaptive, where texels are crossed
 
   static NearStep adaptive() { return {}; }
   static NearStep of(float px) { return {px}; }

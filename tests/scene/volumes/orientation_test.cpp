@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "fmt/format.h"
 #include "io/volumes/nrrd.h"
 #include "io/volumes/vdb.h"
 #include "scene/volumes/volume_view.h"

@@ -157,9 +157,9 @@ Status reproduce_ffao_table4(const ReproduceContext& context, Report* report, st
           if (Status s = run_ffao(view, settings, *executor, &run); !s.ok()) return s;
           settings.near_field = false;
           if (Status s = run_ffao(view, settings, *executor, &alone); !s.ok()) return s;
+          const std::string row = fmt::format("{}: {}", view.name, name);
           auto add = [&](const char* what, double ms) {
-            report->add(fmt::format("{}: {}", view.name, name), fmt::format("{} {}", what, size),
-                        ms, "ms");
+            report->add(row, fmt::format("{} {}", what, size), ms, "ms");
           };
           add("scan", alone.pass("scan"));
           add("sum", alone.pass("sum"));

@@ -193,8 +193,8 @@ class BodyReader {
           continue;
         }
         if (!(corner >= 0 && corner < double(builder_.vertex_count()))) {
-          return wrong(
-              fmt::format("face {} names vertex {:.15g} of {}", f, corner, builder_.vertex_count()));
+          return wrong(fmt::format("face {} names vertex {:.15g} of {}", f, corner,
+                                   builder_.vertex_count()));
         }
         polygon.push_back(std::uint32_t(corner));
       }

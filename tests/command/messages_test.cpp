@@ -67,8 +67,7 @@ TEST_F(MessagesTest, SurfacesBetweenPixels) {
 
 TEST_F(MessagesTest, PicturesOfNothing) {
   write("t.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
-  const std::string line =
-      "ao t.obj --eye 0,0,3 --size 16x16 -q -o o.pfm --look-at ";
+  const std::string line = "ao t.obj --eye 0,0,3 --size 16x16 -q -o o.pfm --look-at ";
   const CommandResult away = run(line + "0,0,9");
   EXPECT_EQ(away.code, 0);
   EXPECT_NE(away.err.find("shows nothing of t.obj"), std::string::npos) << away.err;

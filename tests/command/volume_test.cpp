@@ -122,8 +122,9 @@ TEST_F(VolumeCommand, HolesAndThinVolumes) {
   values[70] = 1;
   values[71] = 0;
   write("c.raw", std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
-  expect_failure("volume c.raw --raw-size 12x12x1 --raw-type f32 --iso 1 -o b.png", 3,
-                 "smaller than a pixel");
+  expect_failure(
+      "volume c.raw --raw-size 12x12x1 --raw-type f32 --iso 1 -o b.png", 3,
+      "lies between the pixels; choose another --iso or a larger --size, or clip its NaN");
   for (const char* spacing : {"0,1,1", "1e-30,1,1", "nan,1,1"}) {
     expect_failure(
         std::string("volume c.raw --raw-size 24x24x1 --raw-spacing ") + spacing + " -o b.png",

@@ -8,9 +8,9 @@
 #include "obscura/status.h"
 
 namespace obscura::tools {
+
 // Radiance RGBE (.hdr), flat or run-length coded, rows from the top: linear R, G, B, divided by the
 // EXPOSURE and COLORCORR lines of the header. `name` stands in messages.
-// EXPOSURE is left to the user, as in other readers. `name` stands in messages.
 Status decode_hdr(std::string_view bytes, const std::string& name, Image* image);
 
 }  // namespace obscura::tools

@@ -31,7 +31,12 @@ std::string valid_utf8(const std::string& text) {
                          : first < 0xE0 ? 2
                          : first < 0xF0 ? 3
                                         : 4;
-    if (first > 0xF4 || (first == 0xC2 && byte(1) < 0xA0)) length = 0;
+    // Control characters, spellings that are longer than need be, surrogates, beyond U+10FFFF.
+    const bool low = byte(1) < 0xA0, lowest = byte(1) < 0x90;
+    if (first > 0xF4 || (first == 0xC2 && low) || (first == 0xE0 && low) ||
+        (first == 0xED && !low) || (first == 0xF0 && lowest) || (first == 0xF4 && !lowest)) {
+      length = 0;
+    }
     for (std::size_t i = 1; i < length; ++i) {
       if ((byte(i) & 0xC0) != 0x80) length = 0;
     }

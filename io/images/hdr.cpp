@@ -26,11 +26,11 @@ bool next_number(std::string_view* text, double* value) {
   return error == std::errc();
 }
 
-// What has been multiplied into the pixels of each channel, by lines that add up.
+// What has been multiplied into the pixels of each channel: the product of all lines.
 struct Multipliers {
   std::array<double, 3> of = {1, 1, 1};
 
-  // False if the line is such a one and its numbers are not positive and finite.
+  // False if the line is such a one and its numbers are out of range.
   bool read(std::string_view line) {
     std::array<double, 3> values = {};
     if (line.starts_with("EXPOSURE=")) {

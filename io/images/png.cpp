@@ -37,7 +37,6 @@ struct Session {
   std::vector<png_bytep> rows;
   int width = 0, height = 0, channels = 0, bits = 0;
   char error[160] = "";
-  bool too_large = false;
 };
 
 Session& session_of(png_structp png) { return *static_cast<Session*>(png_get_error_ptr(png)); }
@@ -67,8 +66,8 @@ void set_rows(Session* s, std::size_t row_bytes) {
   for (int y = 0; y < s->height; ++y) s->rows[y] = s->samples.get() + y * row_bytes;
 }
 
-bool unfolds(const Session& s) {
-  return check_unfolding("", s.width, s.height, s.channels, static_cast<double>(s.in.size())).ok();
+Status check_size(const std::string& name, const Session& s) {
+  return check_unfolding(name, s.width, s.height, s.channels, static_cast<double>(s.in.size()));
 }
 
 bool read_samples(png_structp png, png_infop info, Session* s) {
@@ -90,8 +89,7 @@ bool read_samples(png_structp png, png_infop info, Session* s) {
   s->height = static_cast<int>(png_get_image_height(png, info));
   s->channels = png_get_channels(png, info);
   s->bits = png_get_bit_depth(png, info);
-  s->too_large = !unfolds(*s);
-  if (s->too_large) return false;
+  if (!check_size("", *s).ok()) return false;
   set_rows(s, png_get_rowbytes(png, info));
   png_read_image(png, s->rows.data());
   png_read_end(png, nullptr);
@@ -165,9 +163,7 @@ Status decode_png(std::string_view bytes, const std::string& name, Image* image,
     throw;
   }
   png_destroy_read_struct(&png, &info, nullptr);
-  if (s.too_large) {
-    return check_unfolding(name, s.width, s.height, s.channels, static_cast<double>(s.in.size()));
-  }
+  if (Status size = check_size(name, s); !size.ok()) return size;
   if (!good) {
     return invalid_input(fmt::format("{}: not a readable PNG file ({})", name, s.error));
   }

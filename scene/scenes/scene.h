@@ -22,7 +22,7 @@ struct Scene {
 // Text by key, as after the '?' of `scene:NAME?key=value&...`.
 using SceneParameters = std::map<std::string, std::string>;
 
-// The parts of `scene:NAME?key=value&...`.
+// The parts of `scene:NAME?key=value&...`, of which is_scene() holds.
 Status split_scene(const std::string& spec, std::string* name, SceneParameters* parameters);
 
 // One scene of the catalogue, in docs/scenes.md.

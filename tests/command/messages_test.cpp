@@ -78,6 +78,13 @@ TEST_F(MessagesTest, MessagesAreUtf8WithoutControls) {
   const CommandResult r = run("info 'n\xC3\xA9\xC2\x9B\xFFx.exr'");
   EXPECT_EQ(r.code, 3);
   EXPECT_NE(r.err.find("n\xC3\xA9???x.exr"), std::string::npos) << r.err;
+  // A slash spelt in three bytes, half of a pair, beyond the last character; and the last one.
+  const CommandResult odd =
+      run("info 'a\xE0\x80\xAF"
+          "b\xED\xA0\x80"
+          "c\xF4\x90\x80\x80"
+          "d\xF4\x8F\xBF\xBF.exr'");
+  EXPECT_NE(odd.err.find("a???b???c????d\xF4\x8F\xBF\xBF.exr"), std::string::npos) << odd.err;
 }
 
 TEST_F(MessagesTest, Spacings) {

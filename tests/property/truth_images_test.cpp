@@ -103,21 +103,21 @@ Angles angles(const Scene& scene) {
 // Each threshold is a tenth above what was measured when it was set.
 TEST(TruthImages, Hall) {
   const Scene scene("hall", 2);
-  EXPECT_LE(error<FarFieldSettings>(scene), 1.42);
+  EXPECT_LE(error<FarFieldSettings>(scene), 1.26);
   EXPECT_LE(error<HorizonSettings>(scene), 8.2);
   EXPECT_LE(error<MipmapSettings>(scene), 10.2);
 }
 
 TEST(TruthImages, Meadow) {
   const Scene scene("meadow", 1);
-  EXPECT_LE(error<FarFieldSettings>(scene), 1.55);
+  EXPECT_LE(error<FarFieldSettings>(scene), 1.1);
   EXPECT_LE(error<HorizonSettings>(scene), 19);
   EXPECT_LE(error<MipmapSettings>(scene), 14.8);
 }
 
 TEST(TruthImages, Tower) {
   const Scene scene("tower", 1);
-  EXPECT_LE(error<FarFieldSettings>(scene), 1.0);
+  EXPECT_LE(error<FarFieldSettings>(scene), 0.74);
   const Angles far_field = angles<FarFieldSettings>(scene);
   EXPECT_LE(far_field.direction, 1.63);
   EXPECT_LE(far_field.cone, 1.2);

@@ -4,6 +4,7 @@
 #include "files/module.h"
 #include "library/run.h"
 #include "scene/truth/mesh_points.h"
+#include "scene/truth/vertex_normals.h"
 
 namespace obscura::python {
 namespace {
@@ -54,14 +55,21 @@ tools::Mesh mesh_of(const std::vector<float>& vertices, const std::vector<std::u
   return mesh;
 }
 
-// (visibility (N,), bent normals (N, 3) or None)
+// (visibility (N,), bent normals (N, 3) or None); without points of the vertices.
 py::tuple points_of_mesh(const py::object& vertices, const py::object& faces,
                          const py::object& positions, const py::object& normals, bool bent,
                          const GivenSettings& given, int threads, const py::object& progress) {
   tools::Mesh mesh = mesh_of(rows<float>("vertices", vertices, "float32"),
                              rows<std::uint32_t>("faces", faces, "uint32"));
-  const std::vector<float> at = rows<float>("points", positions, "float32");
-  const std::vector<float> n = rows<float>("normals", normals, "float32");
+  std::vector<float> at, n;
+  if (positions.is_none()) {
+    for (const auto& p : mesh.positions) at.insert(at.end(), {p.x, p.y, p.z});
+    std::size_t without = 0;
+    n = tools::vertex_normals(mesh, &without);
+  } else {
+    at = rows<float>("points", positions, "float32");
+    n = rows<float>("normals", normals, "float32");
+  }
   const auto settings = read_settings<tools::MeshPointSettings>("mesh_visibility", given);
   std::vector<float> visibility(at.size() / 3), directions(bent ? at.size() : 0);
   run(threads, progress, [&](const RunOptions& options) {

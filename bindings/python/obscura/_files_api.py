@@ -114,26 +114,11 @@ def mesh_visibility(vertices, faces, points=None, normals=None, *, bent_normals=
     v, f = _array("vertices", vertices), _array("faces", faces)
     if (points is None) != (normals is None):
         raise TypeError("points and normals go together; give both or neither")
-    if points is None:
-        points, normals = v, _vertex_normals(v, f)
-    visible, bent = _tools().points_of_mesh(v, f, _array("points", points),
-                                            _array("normals", normals), bool(bent_normals), texts,
+    if points is not None:
+        points, normals = _array("points", points), _array("normals", normals)
+    visible, bent = _tools().points_of_mesh(v, f, points, normals, bool(bent_normals), texts,
                                             threads, _progress(progress))
     return (visible, bent) if bent_normals else visible
-
-
-def _vertex_normals(vertices, faces):
-    """The mean of the normals of a vertex's faces, by area; (0, 0, 1) where it has none."""
-    if np.shape(vertices)[1:] != (3,) or np.shape(faces)[1:] != (3,) or len(faces) == 0 or \
-            np.max(faces) >= len(vertices):
-        return np.zeros(np.shape(vertices), np.float32)  # what is wrong with them is said later
-    corners = np.asarray(vertices, np.float64)[np.asarray(faces, np.int64)]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sums = np.zeros((len(vertices), 3))
-    for k in range(3):
-        np.add.at(sums, np.asarray(faces)[:, k], areas)
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), [0, 0, 1]).astype(np.float32)
 
 
 def read_depth(path, **settings):

@@ -108,8 +108,8 @@ LEAF(Real) across_line(LEAF_IN(MatterLine) line, Real wx, Real wy) {
 const float kLeastRise = 5e-4f;
 // What lies this little below the horizon is visible: of a plane every point, whatever rounding
 // does. The second part is of the distance to the camera, over that to the point: rounding of
-// depths turns a point that is close by far more than one farther away. (Where rays are parallel the
-// camera counts as 1 away.)
+// depths turns a point that is close by far more than one farther away. (Where rays are parallel
+// the camera counts as 1 away.)
 const float kHorizonSlack = 1e-5f;
 const float kDepthSlack = 3e-7f;
 // Half the angle of pieces for which the middle alone is enough.

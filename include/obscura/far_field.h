@@ -99,10 +99,10 @@ void visit_fields(Self& s, Visitor&& v) {
                        "sampled row by row."});
   v(s.near_field, Field{"near_field", "", {}, "Sample the pixel's surroundings directly, too."});
   v(s.separable, Field{"separable", "pixels", closed(1, 3),
-                       "3: each pixel of a 3x3 group evaluates a ninth of the directions, whose "
-                       "number must be a multiple of 9; 1: each pixel evaluates all."});
+                       "n: each pixel of an n x n group evaluates 1/n^2 of the directions, whose "
+                       "number must be a multiple of n^2."});
   v(s.jitter, Field{"jitter", "", {}, "Rotates sectors per pixel, in groups of 3x3 pixels."});
-  v(s.blur, Field{"blur", "", {}, "5x5 edge-aware blur; used with separable 3 or jitter."});
+  v(s.blur, Field{"blur", "", {}, "5x5 edge-aware blur; used with jitter."});
   v(s.line_step, Field{"line_step", "pixels", closed(1, 4), "Scan every n-th line only."});
   v(s.cone,
     Field{

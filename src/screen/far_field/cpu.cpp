@@ -87,7 +87,6 @@ class FarFieldMethod final : public Method {
     if (o.visibility.empty() && !wanted_.uniform && !wanted_.cosine) return {};
     Executor& executor = context.executor;
     const PassTimer& timer = context.timer;
-    if (grouped()) timer.time("average", [&] { average_groups(g, executor, &groups_); });
     timer.time("fill", [&] { prepare(g, executor); });
     Progress progress(static_cast<std::int64_t>(plan_.directions.size()), context.progress);
     const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
@@ -99,42 +98,28 @@ class FarFieldMethod final : public Method {
       timer.time("evaluate", [&] { evaluate(direction, executor, &plane); });
       if (!progress.advance()) return {StatusCode::kCancelled, "stopped by the caller"};
     }
-    timer.time("collect", [&] { collect(planes_, &Plane::sums, wanted_, executor, &totals_); });
-    if (separable()) {
+    timer.time("collect", [&] { collect(planes_, wanted_, executor, &totals_); });
+    if (settings_.separable > 1) {
       timer.time("gather", [&] {
-        collect(planes_, &Plane::far_sums, wanted_, executor, &spare_);
-        gather(groups_, spare_, wanted_, executor, &totals_);
+        gather(g, settings_.separable, wanted_, executor, &totals_, &spare_);
       });
     }
-    if (grouped() && settings_.blur) {
-      timer.time("blur", [&] { blur_selectively(groups_, wanted_, executor, &totals_, &spare_); });
+    if (settings_.jitter && settings_.blur) {
+      timer.time("blur", [&] { blur_selectively(g, wanted_, executor, &totals_, &spare_); });
     }
     timer.time("write", [&] { finish(g, totals_, settings_.cone, executor, o); });
     return {};
   }
 
  private:
-  bool separable() const { return settings_.separable == 3; }
-  bool grouped() const { return separable() || settings_.jitter; }
-
   void prepare(const view::Geometry& g, Executor& executor) {
-    const ReceiverSource pixels{
-        &g.depth, {&g.normal_x, &g.normal_y, &g.normal_z}, g.guard_band.left, g.guard_band.top};
-    const ReceiverSource means{
-        &groups_.depth, {&groups_.normal[0], &groups_.normal[1], &groups_.normal[2]}, 0, 0};
     for (bool transposed : {false, true}) {
       Plane& p = planes_[transposed];
       fill_plane(g, settings_.occluder, transposed, margin_, phases_, executor, &p);
-      fill_receivers(pixels, p, transposed, executor, &p.own);
-      auto clear = [&](SumImages* sums) {
-        for (Channel c : wanted_.channels()) {
-          sums->clear(c, p.visible_width, p.visible_height, phases_, executor);
-        }
-      };
-      clear(&p.sums);
-      if (!separable()) continue;
-      fill_receivers(means, p, transposed, executor, &p.averaged);
-      clear(&p.far_sums);
+      fill_receivers(g, transposed, executor, &p);
+      for (Channel c : wanted_.channels()) {
+        p.sums.clear(c, p.visible_width, p.visible_height, phases_, executor);
+      }
     }
   }
 
@@ -148,7 +133,7 @@ class FarFieldMethod final : public Method {
     auto taps = taps_.begin();
     for (int row = 0; row < row_cells; ++row) {
       for (int phase = 0; phase < phases_; ++phase) {
-        for (const Segment& segment : direction.segments_of(cell_of(direction, row, phase))) {
+        for (const Segment& segment : direction.segments_of(cell_of(direction, side_, row, phase))) {
           list_taps(p, direction, segment, phase + p.left, &*taps++);
         }
       }
@@ -175,18 +160,16 @@ class FarFieldMethod final : public Method {
     const int v = y + p.top, u = phase + p.left, row = direction.sign > 0 ? v : p.height - 1 - v;
     const int interval = settings_.interval;
     const int near = near_rows(direction, interval, row, p.height);
-    const int cell = cell_of(direction, y, phase);
-    const bool far = !separable() || direction.group == cell;
+    const int cell = cell_of(direction, side_, y, phase);
+    if (settings_.separable > 1 && direction.group != cell) return;
     const std::vector<Segment>& segments = direction.segments_of(cell);
     IntervalRead intervals[kMaxIntervals];
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment& segment = segments[i];
       SliceRow job{.plane = &p,
-                   .receivers = &p.own,
                    .rho = &plan_.rho,
                    .sums = SliceSums::kVisibility,
                    .chord = settings_.profile == SlabProfile::kAdaptiveChord,
-                   .far_alone = false,
                    .sign = direction.sign,
                    .row = y,
                    .column = phase,
@@ -197,26 +180,12 @@ class FarFieldMethod final : public Method {
                    .taps = taps_of(y, phase, i).data(),
                    .tap_count = count_taps(segment, row, near, p.height),
                    .intervals = intervals,
-                   .interval_count = 0,
+                   .interval_count = list_intervals(direction, segment, layout, Climb(settings_), row,
+                                                    u, p.finite, &buffer_, intervals),
                    .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
                    .slack = join_slack(p),
                    .dither = dither(direction, segment),
                    .out = {}};
-      if (far) {
-        job.interval_count = list_intervals(direction, segment, layout, Climb(settings_), row, u,
-                                            p.finite, &buffer_, intervals);
-      }
-      if (!separable()) {
-        add(job, &p.sums);
-        continue;
-      }
-      if (far) {
-        SliceRow shared = job;
-        shared.receivers = &p.averaged;
-        shared.far_alone = true;
-        add(shared, &p.far_sums);
-        job.interval_count = 0;
-      }
       add(job, &p.sums);
     }
   }
@@ -239,10 +208,9 @@ class FarFieldMethod final : public Method {
 
   const FarFieldPlan plan_;
   const FarFieldSettings& settings_ = plan_.settings;
-  const int phases_ = plan_.phases, margin_;
+  const int side_ = group_side(settings_), phases_ = plan_.phases, margin_;
   WantedSums wanted_;
   Plane planes_[2];
-  Groups groups_;
   Totals totals_, spare_;
   ScanBuffer buffer_;
   std::vector<std::vector<TapRead>> taps_;  // of one direction; see taps_of()

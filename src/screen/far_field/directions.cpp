@@ -16,6 +16,16 @@ constexpr double kFirstSample = 0.125;  // pixels
 constexpr double kColumnsWithin = 16;   // pixels; what a sample subtends shrinks with distance
 constexpr double kLeastBetweenSamples = 0.1;  // pixels
 
+// Which share a cell has, row by row. Of 3 x 3 a magic square's, so that each row and each column of
+// cells has the same mean; of 2 x 2 neighbouring shares lie beside each other.
+constexpr int kJitterCells = 9;
+constexpr int kSquareOrder[kJitterCells] = {1, 6, 5, 8, 4, 0, 3, 2, 7}, kPairOrder[] = {0, 1, 3, 2};
+
+int cell_of_share(int share, int side) {
+  const int* order = side == 3 ? kSquareOrder : kPairOrder;
+  return static_cast<int>(std::find(order, order + side * side, share) - order);
+}
+
 // Rounded so that samples on lattice lines stay on them, mirrored ones too.
 double to_lattice(double x) { return std::round(x * 4096) / 4096; }
 
@@ -87,6 +97,8 @@ int strip_offset(bool transposed, int sign, double angle, int interval) {
 
 }  // namespace
 
+int group_side(const FarFieldSettings& s) { return s.jitter ? 3 : s.separable; }
+
 std::vector<Direction> make_directions(const FarFieldSettings& s) {
   // Half a sector of rotation keeps every sector on one side of the diagonals where 8 divides K.
   const double offset = s.directions % 8 == 0 ? 0.5 : 0;
@@ -101,12 +113,11 @@ std::vector<Direction> make_directions(const FarFieldSettings& s) {
     const double angle = std::atan2(d.transposed ? v : u, std::abs(d.transposed ? u : v));
     d.slope = static_cast<float>(std::tan(angle));
     d.strip_offset = strip_offset(d.transposed, d.sign, angle, s.interval);
-    for (int cell = 0; cell < kCells; ++cell)
-      d.group = kCellOrder[cell] == k % kCells ? cell : d.group;
-    d.segments.resize(s.jitter ? kCells : 1);
+    d.group = s.separable > 1 ? cell_of_share(k % (s.separable * s.separable), s.separable) : 0;
+    d.segments.resize(s.jitter ? kJitterCells : 1);
     const double width = 2 * kPi / s.directions / s.segments;
     for (std::size_t cell = 0; cell < d.segments.size(); ++cell) {
-      const double turn = s.jitter ? width * (kCellOrder[cell] - 0.5 * (kCells - 1)) / kCells : 0;
+      const double turn = s.jitter ? width * (kSquareOrder[cell] - 0.5 * (kJitterCells - 1)) / kJitterCells : 0;
       for (int i = 0; i < s.segments; ++i) {
         d.segments[cell].push_back(
             make_segment(s, angle + turn + width * (i - 0.5 * s.segments), width));

@@ -36,10 +36,8 @@ struct Direction {
   }
 };
 
-// Cells of 3x3 pixels share directions or jitter. The order is a magic square's, so that each row
-// and each column of cells has the same mean.
-inline constexpr int kCells = 9;
-inline constexpr int kCellOrder[kCells] = {1, 6, 5, 8, 4, 0, 3, 2, 7};
+// Groups of n x n pixels share directions or jitter (3 x 3); a cell is a pixel's place in its group.
+int group_side(const FarFieldSettings& settings);
 
 // Rows from a receiver to its first interval lie in [interval, 2 interval).
 inline int longest_near_field(int interval) { return 2 * interval - 1; }

@@ -6,18 +6,15 @@
 
 // What both evaluations have in common, solid and finite occluders.
 #define OBSCURA_EVALUATION                                                                 \
-  IO_NUMBER(kWhole, 0); /* modes; the others: Timonen 2013, section 10 */                  \
-  IO_NUMBER(kNearAlone, 1);                                                                \
-  IO_NUMBER(kFarAlone, 2);                                                                 \
   IO_THREADS(32, 4);                                                                       \
   IO_CONSTANT(0, int, kFalloff, 1); /* FalloffKind */                                      \
   IO_CONSTANT(1, bool, kChord, true);                                                      \
   IO_CONSTANT(2, int, kSums, 0); /* SliceSums */                                           \
-  IO_CONSTANT(3, int, kMode, 0);                                                           \
+  IO_CONSTANT(3, int, kSide, 1); /* of groups of pixels that share */                      \
   IO_CONSTANT(4, int, kPhases, 1); /* of a row's receivers */                              \
   IO_CONSTANT(5, int, kLineStep, 1);                                                       \
   IO_CONSTANT(6, int, kSegments, 2);                                                       \
-  IO_CONSTANT(7, bool, kJitter, false);                                                    \
+  IO_CONSTANT(7, bool, kJitter, false); /* turns segments, else directions are shared */   \
   IO_READS(0, Tables, uvec4, quads);                                                       \
   IO_READS(1, Lattice, float, lattice);                                                    \
   IO_READS(2, Receivers, vec4, receivers);                                                 \

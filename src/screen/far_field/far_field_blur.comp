@@ -5,7 +5,7 @@
 #include "math/leaf_glsl.h"
 #include "math/slab_leaf.h"
 #include "math/cone_leaf.h"
-#include "screen/far_field/groups_leaf.h"
+#include "screen/far_field/blur_leaf.h"
 #include "screen/far_field/far_field_blur_io.h"
 #include "gpu/direction_result.glsl"
 #include "gpu/results.glsl"
@@ -25,7 +25,7 @@ void load_tile(ivec2 corner) {
     const bool inside = all(greaterThanEqual(p, ivec2(0))) && p.x < view.visible_width &&
                         p.y < view.visible_height;
     const int pixel = p.y * view.visible_width + p.x;
-    tile[i] = inside ? vec2(totals[pixel], groups[pixel].w) : vec2(0.0, kInf);
+    tile[i] = inside ? vec2(totals[pixel], depth[(p.y + view.top) * view.width + p.x + view.left]) : vec2(0.0, kInf);
   }
   barrier();
 }

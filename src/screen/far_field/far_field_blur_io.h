@@ -8,7 +8,7 @@ IO_NUMBER(kWidth, 32);
 IO_NUMBER(kHeight, 8);
 IO_THREADS(kWidth, kHeight);
 OBSCURA_TOTALS;
-IO_READS(3, Groups, vec4, groups);  // normal, depth
+IO_READS(3, Depth, float, depth);
 IO_READS(4, Totals, float, totals);
 IO_NO_PUSH;
 IO_END

@@ -75,10 +75,7 @@ void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place
                     inout Totals totals) {
   Horizon h = start_horizon(part.slice, reads.tap_count > 0);
   add_taps(r, part, reads, place, h);
-  if (kMode == kFarAlone) {
-    h.sum = h.sum_x = h.sum_y = h.sum_solid = 0.0;
-  }
-  if (kMode != kNearAlone) add_intervals(r, part, reads, d, place, h);
+  add_intervals(r, part, reads, d, place, h);
   add_slice(part, middle_of(float(d.sign_v), reads.slopes), h.sum, vec2(h.sum_x, h.sum_y),
             h.sum_solid, totals);
 }

@@ -52,31 +52,29 @@ struct Place {
 void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place,
                     inout Totals totals);
 
-// Which of 3x3 cells a pixel is in this frame, the image's way.
+// Which cell of its group a pixel is in this frame, the image's way.
 int cell_of(ivec2 p) {
-  const ivec2 image = pattern_place(turned(p)) % 3;
-  return 3 * image.y + image.x;
+  const ivec2 image = pattern_place(turned(p)) % kSide;
+  return kSide * image.y + image.x;
 }
 
 void main() {
   const int phase = int(gl_GlobalInvocationID.z);
   const ivec2 visible = plane_visible();
-  const int pixel_step = kMode == kNearAlone ? 1 : kPhases;
-  const ivec2 p = ivec2(int(gl_GlobalInvocationID.x) * pixel_step + phase, gl_GlobalInvocationID.y);
+  const ivec2 p = ivec2(int(gl_GlobalInvocationID.x) * kPhases + phase, gl_GlobalInvocationID.y);
   if (p.x >= visible.x || p.y >= visible.y) return;
   const int pixel = p.y * visible.x + p.x;
   const ivec2 at = p + plane_corner();
   const int texel = at.y * view.lattice_stride + view.margin + at.x;
-  const vec4 given = receivers[pixel];
-  const float g = kMode == kFarAlone ? lattice_value(given.w) : lattice[texel];
-  const Receiver r = receiver_at(p, g, given.xyz);
+  const vec3 normal = receivers[pixel].xyz;
+  const Receiver r = receiver_at(p, lattice[texel], normal);
   Totals totals = Totals(0.0, 0.0, vec3(0.0));
   const int cell = cell_of(p);
   // Receivers of a row and a cell that stand alike between scanned lines read alike.
   const int alike = ((kJitter ? 9 * p.y + cell : p.y) * kLineStep + p.x % kLineStep) * kSegments;
   for (int i = 0; r.surface && i < view.direction_count; ++i) {
     const Direction d = direction_at(i);
-    if (kMode == kFarAlone && d.group != cell) continue;
+    if (kSide > 1 && !kJitter && d.group != cell) continue;
     const Place place =
         Place(texel, d.sign_v * view.lattice_stride, p.x / kLineStep,
               -float(d.sign_v) * (float(at.y) - plane_center().y));

@@ -50,7 +50,7 @@ void fill_rows(ivec2 corner) {
 void fill_columns(ivec2 corner) {
   const ivec2 at = ivec2(gl_LocalInvocationID.xy);
   for (int y = at.y; y < kTile; y += 8) {
-    if (kLattice) texels[at.x][y] = texel_at(ivec2(corner.y + at.x, corner.x - view.margin + y));
+    texels[at.x][y] = texel_at(ivec2(corner.y + at.x, corner.x - view.margin + y));
     const ivec2 visible = ivec2(corner.y + at.x, corner.x + y);
     if (visible.x < view.visible_width && visible.y < view.visible_height) {
       tile[at.x][y] = receivers[visible.y * view.visible_width + visible.x];
@@ -59,7 +59,7 @@ void fill_columns(ivec2 corner) {
   barrier();
   for (int y = at.y; y < kTile; y += 8) {
     const ivec2 p = corner + ivec2(at.x, y);
-    if (kLattice && p.x < view.height + 2 * view.margin && p.y < view.width) {
+    if (p.x < view.height + 2 * view.margin && p.y < view.width) {
       store_texel(p.y * view.lattice_stride + p.x, texels[y][at.x]);
     }
     if (p.x < view.visible_height && p.y < view.visible_width) {

@@ -9,8 +9,7 @@ IO_NUMBER(kTile, 32);
 OBSCURA_MATTER_KINDS;
 IO_THREADS(32, 8);
 IO_TILE(kTile, kTile);
-IO_CONSTANT(0, bool, kLattice, true);  // else receivers alone
-IO_CONSTANT(1, int, kOccluder, 0);
+IO_CONSTANT(0, int, kOccluder, 0);
 IO_READS(0, Depth, float, depth);
 IO_READS(1, Receivers, vec4, receivers);
 IO_WRITES(2, Lattice, float, lattice);

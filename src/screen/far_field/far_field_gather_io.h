@@ -6,10 +6,9 @@
 IO_BEGIN(far_field_gather_io)
 IO_THREADS(32, 4);
 OBSCURA_TOTALS;
-IO_CONSTANT(3, bool, kToImage, true);
-IO_READS(3, Accepted, uint, accepted);
-IO_READS(4, Far, float, far);
-IO_UPDATES(5, Totals, float, totals);
+IO_CONSTANT(3, int, kSide, 2);  // of the groups, in pixels
+IO_READS(3, Depth, float, depth);
+IO_READS(4, Totals, float, totals);
 IO_NO_PUSH;
 IO_END
 

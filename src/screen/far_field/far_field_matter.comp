@@ -76,10 +76,7 @@ void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place
   const float back = max(backs[place.texel], r.depth);
   Sectors m = start_sectors(part.slice, reads.tap_count > 0, r.depth, back);
   add_taps(part, reads, place, m);
-  if (kMode == kFarAlone) {
-    m.sum = m.sum_x = m.sum_y = m.sum_solid = 0.0;
-  }
-  if (kMode != kNearAlone) add_intervals(part, reads, d, place, m);
+  add_intervals(part, reads, d, place, m);
   add_slice(part, middle_of(float(d.sign_v), reads.slopes), m.sum, vec2(m.sum_x, m.sum_y),
             m.sum_solid, totals);
 }

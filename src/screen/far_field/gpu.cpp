@@ -6,7 +6,6 @@
 #include "screen/far_field/gpu_tables.h"
 #include "screen/far_field/plan.h"
 #include "screen/gpu.h"
-#include "shaders/far_field_average.h"
 #include "shaders/far_field_blur.h"
 #include "shaders/far_field_collect.h"
 #include "shaders/far_field_evaluate.h"
@@ -24,9 +23,8 @@ namespace {
 // The regions of one orientation.
 struct PlaneRegions {
   int lattice = -1, receivers = -1, sums = -1;
-  int back = -1;                     // of finite occluders
-  int averaged = -1, far_sums = -1;  // of the separable evaluation
-  bool filled = false;               // a batch has written the sums
+  int back = -1;        // of finite occluders
+  bool filled = false;  // a batch has written the sums
 };
 
 class FarFieldProgram {
@@ -47,7 +45,6 @@ class FarFieldProgram {
     }
     normals_ = g.normals;
     program_->add_table(tables_.words());
-    if (grouped()) add_average();
     for (bool turned : {false, true}) add_plane(tables_.plane(turned));
     std::uint64_t raw = 1, sums = 1;
     for (const Batch& b : tables_.batches()) {
@@ -66,9 +63,7 @@ class FarFieldProgram {
   }
 
  private:
-  bool separable() const { return settings_.separable == 3; }
   bool finite() const { return settings_.occluder.kind != OccluderKind::kSolid; }
-  bool grouped() const { return separable() || settings_.jitter; }
   // Floats of a pixel's sums.
   int channels() const { return sums_ == SliceSums::kVisibility ? 1 : 5; }
   int add_sums_region() { return program_->add_region(frame_.visible_bytes(channels())); }
@@ -88,13 +83,7 @@ class FarFieldProgram {
     r.back = finite() ? program_->add_region(bytes) : r.lattice;
     r.receivers = p.transposed ? program_->add_region(frame_.visible_bytes(4)) : normals_;
     r.sums = add_sums_region();
-    add_fill(p, true, normals_, p.transposed ? r.receivers : r.lattice);
-    if (!separable()) return;
-    r.far_sums = add_sums_region();
-    r.averaged = groups_;
-    if (!p.transposed) return;
-    r.averaged = program_->add_region(frame_.visible_bytes(4));
-    add_fill(p, false, groups_, r.averaged);
+    add_fill(p);
   }
 
   int occluder_kind() const {
@@ -104,36 +93,24 @@ class FarFieldProgram {
                                                                  : io::kWithBack;
   }
 
-  void add_fill(const PlaneShape& p, bool lattice, int receivers, int turned) {
+  void add_fill(const PlaneShape& p) {
     namespace io = far_field_fill_io;
+    const PlaneRegions& r = regions(p);
     program_->add(
         {.name = "fill",
          .shader = shaders::far_field_fill,
-         .constants = {{io::kLattice, lattice}, {io::kOccluder, occluder_kind()}},
+         .constants = {{io::kOccluder, occluder_kind()}},
          .slots = {{io::kDepthAt, depth_},
-                   {io::kReceiversAt, receivers},
-                   {io::kLatticeAt, regions(p).lattice},
-                   {io::kTurnedAt, turned},
-                   {io::kBackAt, regions(p).back},
+                   {io::kReceiversAt, normals_},
+                   {io::kLatticeAt, r.lattice},
+                   {io::kTurnedAt, p.transposed ? r.receivers : r.lattice},
+                   {io::kBackAt, r.back},
                    {io::kGivenBackAt, back_}},
-         .size = lattice ? Extent{p.stride, p.height} : p.visible,
+         .size = {p.stride, p.height},
          .thickness = settings_.occluder.thickness,
          .push = push_words(io::Push{
              .transposed = p.transposed, .lattice_stride = p.stride, .margin = tables_.margin()}),
-         .overlaps = p.transposed && lattice});
-  }
-
-  void add_average() {
-    namespace io = far_field_average_io;
-    groups_ = program_->add_region(frame_.visible_bytes(4));
-    accepted_ = program_->add_region(frame_.visible_bytes());
-    program_->add({.name = "average",
-                   .shader = shaders::far_field_average,
-                   .slots = {{io::kDepthAt, depth_},
-                             {io::kNormalsAt, normals_},
-                             {io::kGroupsAt, groups_},
-                             {io::kAcceptedAt, accepted_}},
-                   .size = frame_.visible()});
+         .overlaps = p.transposed});
   }
 
   void add_scan(const Batch& b) {
@@ -192,50 +169,33 @@ class FarFieldProgram {
                    .bytes = tables_.raw_bytes(b) + tables_.sum_bytes(b)});
   }
 
-  void add_evaluation(const Batch& b) {
-    namespace io = evaluation_io;
-    PlaneRegions& r = regions(*b.plane);
-    if (separable()) {
-      // Without a near field the first batch makes the sums zero.
-      const bool near = settings_.near_field || !r.filled;
-      if (near) add_evaluation(b, io::kNearAlone, r.receivers, r.sums);
-      add_evaluation(b, io::kFarAlone, r.averaged, r.far_sums);
-      program_->passes.back().overlaps = near;
-    } else {
-      add_evaluation(b, io::kWhole, r.receivers, r.sums);
-    }
-    r.filled = true;
-  }
-
   // Lines, lattice, receivers and sums, which are read where an earlier batch has begun them.
-  std::uint64_t evaluation_bytes(const Batch& b, int mode) const {
+  std::uint64_t evaluation_bytes(const Batch& b) const {
     const std::uint64_t lines = finite() ? tables_.raw_bytes(b) : tables_.sum_bytes(b);
     const int sums = channels() * (regions(*b.plane).filled ? 2 : 1);
-    return (mode == evaluation_io::kNearAlone ? 0 : lines) + b.table_bytes +
+    return lines + b.table_bytes +
            lattice_bytes(*b.plane) + frame_.visible_bytes(4 + sums);
   }
 
-  void add_evaluation(const Batch& b, int mode, int receivers, int sums) {
+  void add_evaluation(const Batch& b) {
     namespace io = evaluation_io;
     const PlaneShape& p = *b.plane;
-    const bool near_alone = mode == io::kNearAlone;
-    const int phases = near_alone ? 1 : tables_.phases();
-    const int directions =
-        near_alone && !settings_.near_field ? 0 : static_cast<int>(b.directions.size());
+    PlaneRegions& r = regions(p);
+    const int phases = tables_.phases();
     Pass pass{.name = "evaluate",
               .shader = finite() ? shaders::far_field_matter : shaders::far_field_evaluate,
               .constants = {{io::kFalloff, static_cast<int>(rho_.kind)},
                             {io::kChord, settings_.profile == SlabProfile::kAdaptiveChord},
                             {io::kSums, static_cast<int>(sums_)},
-                            {io::kMode, mode},
+                            {io::kSide, far_field::group_side(settings_)},
                             {io::kPhases, tables_.phases()},
                             {io::kLineStep, settings_.line_step},
                             {io::kSegments, settings_.segments},
                             {io::kJitter, settings_.jitter}},
               .slots = {{io::kTablesAt, tables()},
-                        {io::kLatticeAt, regions(p).lattice},
-                        {io::kReceiversAt, receivers},
-                        {io::kPlaneSumsAt, sums}},
+                        {io::kLatticeAt, r.lattice},
+                        {io::kReceiversAt, r.receivers},
+                        {io::kPlaneSumsAt, r.sums}},
               .size = {(p.visible.width + phases - 1) / phases, p.visible.height},
               .layers = phases,
               .push = push_words(io::Push{.rho_radius = rho_.radius,
@@ -247,19 +207,20 @@ class FarFieldProgram {
                                           .lattice_stride = p.stride,
                                           .margin = tables_.margin(),
                                           .directions = b.table,
-                                          .direction_count = directions,
+                                          .direction_count = static_cast<int>(b.directions.size()),
                                           .sum_stride = finite() ? b.lines : tables_.sum_stride(b),
-                                          .add = regions(p).filled,
+                                          .add = r.filled,
                                           .slope = slope()}),
-              .bytes = evaluation_bytes(b, mode)};
+              .bytes = evaluation_bytes(b)};
     if (finite()) {
-      pass.slots.push_back({far_field_matter_io::kBackAt, regions(p).back});
+      pass.slots.push_back({far_field_matter_io::kBackAt, r.back});
       pass.slots.push_back({far_field_matter_io::kLinesAt, raw_});
     } else {
       pass.slots.push_back({far_field_evaluate_io::kLineSumsAt, line_sums_});
       pass.slots.push_back({far_field_evaluate_io::kCountsAt, counts_});
     }
     program_->add(std::move(pass));
+    r.filled = true;
   }
 
   // What passes that may be the last have in common (OBSCURA_TOTALS).
@@ -278,43 +239,40 @@ class FarFieldProgram {
   }
 
   void add_collect() {
-    namespace io = far_field_blur_io;
-    if (!grouped()) {
-      add_collect("write", regions_[0].sums, regions_[1].sums, -1);
+    const bool blur = settings_.jitter && settings_.blur, share = settings_.separable > 1;
+    if (!blur && !share) {
+      add_collect("write", -1);
       return;
     }
-    const bool blur = settings_.blur;
-    const int totals = blur || separable() ? add_sums_region() : -1;
-    add_collect("collect", regions_[0].sums, regions_[1].sums, totals);
-    if (separable()) add_gather(totals, !blur);
-    if (blur) {
-      program_->add(last_pass("blur", shaders::far_field_blur,
-                              {{io::kGroupsAt, groups_}, {io::kTotalsAt, totals}}));
-    }
+    const int totals = add_sums_region();
+    add_collect("collect", totals);
+    share ? add_gather(totals) : add_blur(totals);
   }
 
   // To the results, or to a region of totals.
-  void add_collect(const char* name, int straight, int turned, int totals) {
+  void add_collect(const char* name, int totals) {
     namespace io = far_field_collect_io;
     const bool to_image = totals < 0;
     Pass pass = last_pass(name, shaders::far_field_collect,
-                          {{io::kStraightAt, straight},
-                           {io::kTurnedAt, turned},
-                           {io::kTotalsAt, to_image ? straight : totals}});
+                          {{io::kStraightAt, regions_[0].sums},
+                           {io::kTurnedAt, regions_[1].sums},
+                           {io::kTotalsAt, to_image ? regions_[0].sums : totals}});
     pass.constants.emplace_back(io::kToImage, to_image);
     program_->add(std::move(pass));
   }
 
-  void add_gather(int totals, bool to_image) {
+  void add_gather(int totals) {
     namespace io = far_field_gather_io;
-    const int far = add_sums_region();
-    add_collect("collect", regions_[0].far_sums, regions_[1].far_sums, far);
-    program_->passes.back().overlaps = true;
-    Pass pass =
-        last_pass("gather", shaders::far_field_gather,
-                  {{io::kAcceptedAt, accepted_}, {io::kFarAt, far}, {io::kTotalsAt, totals}});
-    pass.constants.emplace_back(io::kToImage, to_image);
+    Pass pass = last_pass("gather", shaders::far_field_gather,
+                          {{io::kDepthAt, depth_}, {io::kTotalsAt, totals}});
+    pass.constants.emplace_back(io::kSide, settings_.separable);
     program_->add(std::move(pass));
+  }
+
+  void add_blur(int totals) {
+    namespace io = far_field_blur_io;
+    program_->add(last_pass("blur", shaders::far_field_blur,
+                            {{io::kDepthAt, depth_}, {io::kTotalsAt, totals}}));
   }
 
   const FarFieldSettings& settings_;
@@ -325,7 +283,6 @@ class FarFieldProgram {
   Program* program_;
   PlaneRegions regions_[2];
   int depth_ = -1, back_ = -1, normals_ = -1;
-  int groups_ = -1, accepted_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };
 

@@ -71,11 +71,12 @@ int count_taps(const Segment& segment, int row, int rows, int height) {
 }
 
 int phases_of(const FarFieldSettings& s) {
-  return std::lcm(s.separable == 3 || s.jitter ? 3 : 1, s.line_step);
+  return std::lcm(group_side(s), s.line_step);
 }
 
-int cell_of(const Direction& direction, int row, int phase) {
-  return direction.transposed ? 3 * (phase % 3) + row % 3 : 3 * (row % 3) + phase % 3;
+int cell_of(const Direction& direction, int side, int row, int phase) {
+  const int u = phase % side, v = row % side;
+  return direction.transposed ? side * u + v : side * v + u;
 }
 
 float dither(const Direction& direction, const Segment& segment) {

@@ -69,9 +69,9 @@ int count_taps(const Segment& segment, int row, int rows, int height);
 // Pixels that do alike lie this far apart along a row.
 int phases_of(const FarFieldSettings& settings);
 
-// Of a pixel in column `phase` of a row's phases. Cells are the image's, whichever way the plane
-// lies.
-int cell_of(const Direction& direction, int row, int phase);
+// Of a pixel in column `phase` of a row's phases, in groups of `side`. Cells are the image's,
+// whichever way the plane lies.
+int cell_of(const Direction& direction, int side, int row, int phase);
 
 // What moves the rounding to sectors; the same for a slice and its mirror image.
 float dither(const Direction& direction, const Segment& segment);

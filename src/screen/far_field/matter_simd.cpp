@@ -18,7 +18,7 @@ void AddMatterSlices(const SliceRow& job) {
   const D d;
   const Plane& p = *job.plane;
   const RowFrame f(job);
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), inf = hn::Inf(d);
+  const V one = hn::Set(d, 1.0f), inf = hn::Inf(d);
   const V slack = hn::Set(d, job.slack), dither = hn::Set(d, job.dither);
   leaf::SliceIntegral<kKind, true, kSums> slices(*job.rho);
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -47,7 +47,6 @@ void AddMatterSlices(const SliceRow& job) {
       const V row = hn::Set(d, tap.along);
       add(c.depth, c.back, p.orthographic ? row : hn::Mul(row, c.depth), row, row, c.surface);
     }
-    if (job.far_alone) m.sum = m.sum_x = m.sum_y = m.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
       const IntervalRead& read = job.intervals[k];
       const int line = std::clamp(i + read.middle, read.line.window.begin - PrefixSums::kPadding,

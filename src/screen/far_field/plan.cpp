@@ -57,13 +57,16 @@ Status make_plan(const FarFieldSettings& given, FarFieldPlan* plan) {
     return invalid_argument(text("near_step is ", step, "; it must be in ",
                                  to_string(NearStep::kRange), ", or 0 for adaptive"));
   }
-  if (settings.separable == 2) return invalid_argument("separable is 2; it must be 1 or 3");
-  if (settings.separable == 3 && settings.directions % far_field::kCells != 0) {
-    return invalid_argument(text("directions is ", settings.directions,
-                                 "; with separable 3 it must be a multiple of 9, such as 18"));
+  const int shares = settings.separable * settings.separable;
+  if (settings.directions % shares != 0) {
+    return invalid_argument(text("directions is ", settings.directions, "; with separable ",
+                                 settings.separable, " it must be a multiple of ", shares,
+                                 ", such as ", (16 + shares - 1) / shares * shares));
   }
-  if (settings.separable == 3 && settings.jitter) {
-    return invalid_argument("jitter and separable 3 exclude each other: both share out 3x3 pixels");
+  if (settings.separable > 1 && settings.jitter) {
+    return invalid_argument(
+        text("jitter and separable ", settings.separable,
+             " exclude each other: both share out groups of pixels"));
   }
   if (settings.occluder.kind == OccluderKind::kLayers) {
     return unsupported("the far field takes the occluders auto, solid, thickness and back-depth");

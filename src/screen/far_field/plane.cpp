@@ -90,12 +90,12 @@ void fill_plane(const view::Geometry& g, const Occluder& occluder, bool transpos
   }
 }
 
-void fill_receivers(const ReceiverSource& source, const Plane& p, bool transposed,
-                    Executor& executor, ReceiverImages* receivers) {
+void fill_receivers(const view::Geometry& g, bool transposed, Executor& executor, Plane* plane) {
+  Plane& p = *plane;
   const int phases = p.lattice.phases();
+  const AlignedImage<float>* normals[] = {&g.normal_x, &g.normal_y, &g.normal_z};
   auto texel = [&](const AlignedImage<float>& image, int u, int v) {
-    return transposed ? image(v + source.left, u + source.top)
-                      : image(u + source.left, v + source.top);
+    return transposed ? image(v + p.top, u + p.left) : image(u + p.left, v + p.top);
   };
   auto write = [&](PhaseImage* image, auto value) {
     image->resize(p.visible_width, p.visible_height, 0, phases);
@@ -103,15 +103,15 @@ void fill_receivers(const ReceiverSource& source, const Plane& p, bool transpose
     executor.parallel_for(p.visible_height, [&](int y, int) { image->fill_row(y, 0); });
     fill(p.visible_width, p.visible_height, executor, image, value);
   };
-  write(&receivers->lattice, [&](int u, int v) {
-    return leaf_scalar::lattice_of_depth(texel(*source.depth, u, v), p.orthographic);
+  write(&p.receivers.lattice, [&](int u, int v) {
+    return leaf_scalar::lattice_of_depth(texel(g.depth, u, v), p.orthographic);
   });
   // The image's v and this frame's third axis run against eye space's y and z.
   constexpr float kSign[] = {1, -1, -1};
   for (int k = 0; k < 3; ++k) {
     const int axis = transposed && k < 2 ? 1 - k : k;
-    write(&receivers->normal[axis],
-          [&](int u, int v) { return kSign[k] * texel(*source.normal[k], u, v); });
+    write(&p.receivers.normal[axis],
+          [&](int u, int v) { return kSign[k] * texel(*normals[k], u, v); });
   }
 }
 

@@ -44,18 +44,8 @@ struct Plane {
   bool finite = false;
   PhaseImage back;
 
-  ReceiverImages own;       // the pixels themselves
-  ReceiverImages averaged;  // means over 3x3 pixels (Timonen 2013, section 10)
+  ReceiverImages receivers;
   SumImages sums;
-  SumImages
-      far_sums;  // the far field of each pixel's share of the directions (Timonen 2013, section 10)
-};
-
-// Depth and normals of receivers where they are in an image.
-struct ReceiverSource {
-  const AlignedImage<float>* depth;
-  const AlignedImage<float>* normal[3];
-  int left, top;  // of the visible part
 };
 
 // Fills the plane's views of matter from the geometry; `margin` is the plane's, in texels. Finite
@@ -63,8 +53,9 @@ struct ReceiverSource {
 void fill_plane(const view::Geometry& geometry, const Occluder& occluder, bool transposed,
                 int margin, int phases, Executor& executor, Plane* plane);
 
-void fill_receivers(const ReceiverSource& source, const Plane& plane, bool transposed,
-                    Executor& executor, ReceiverImages* receivers);
+// After fill_plane().
+void fill_receivers(const view::Geometry& geometry, bool transposed, Executor& executor,
+                    Plane* plane);
 
 }  // namespace obscura::far_field
 

@@ -43,7 +43,7 @@ struct ImageStep {
 struct RowFrame {
   explicit RowFrame(const SliceRow& job)
       : plane(*job.plane),
-        receivers(*job.receivers),
+        receivers(job.plane->receivers),
         row(job.row),
         column(job.column),
         v_axis(static_cast<float>(job.row + plane.top) - plane.center_v) {

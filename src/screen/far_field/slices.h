@@ -35,11 +35,9 @@ struct IntervalRead {
 // One segment of one direction for the receivers of one phase of a row.
 struct SliceRow {
   const Plane* plane;
-  const ReceiverImages* receivers;
   const math::Rho* rho;
   SliceSums sums;
   bool chord;
-  bool far_alone;  // the near field's horizon counts, its obscurance does not
   int sign;
   int row, column;  // of the visible part; `column` is the first receiver's
   int count;        // receivers

@@ -65,7 +65,6 @@ void AddSlices(const SliceRow& job) {
       slices.add_point(part.slice, leaf::part_x(part, rows), leaf::part_y(part, q, rows), valid,
                        false, one, h);
     }
-    if (job.far_alone) h.sum = h.sum_x = h.sum_y = h.sum_solid = zero;
     for (int k = 0; k < job.interval_count; ++k) {
       const IntervalRead& read = job.intervals[k];
       const LineWindow& window = read.from.window;

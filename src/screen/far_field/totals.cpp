@@ -1,16 +1,17 @@
 #include "screen/far_field/totals.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "math/leaf_scalar.h"
 #include "screen/far_field/finish_kernel.h"
+#include "screen/far_field/share_kernel.h"
 
 namespace obscura {
 namespace leaf_scalar {
-#include "screen/far_field/groups_leaf.h"
+#include "screen/far_field/blur_leaf.h"
 }  // namespace leaf_scalar
 
 namespace far_field {
@@ -87,8 +88,6 @@ void finish_cosine(const view::Geometry& g, const Totals& totals, int y,
   }
 }
 
-float length_of(const float v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 }  // namespace
 
 std::vector<Channel> WantedSums::channels() const {
@@ -101,10 +100,9 @@ std::vector<Channel> WantedSums::channels() const {
   return list;
 }
 
-void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& wanted,
-             Executor& executor, Totals* totals) {
+void collect(const Plane planes[2], const WantedSums& wanted, Executor& executor, Totals* totals) {
   const Plane& p = planes[0];
-  const SumImages &a = planes[0].*member, &b = planes[1].*member;
+  const SumImages &a = planes[0].sums, &b = planes[1].sums;
   auto& out = totals->channel;
   for (Channel c : wanted.channels()) out[c].resize(p.visible_width, p.visible_height);
   auto add = [&](int from_a, int from_b, int to, float sign) {
@@ -137,80 +135,62 @@ void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& 
   if (wanted.cosine) add_vector(kCosineVector);
 }
 
-void average_groups(const view::Geometry& g, Executor& executor, Groups* groups) {
+void gather(const view::Geometry& g, int side, const WantedSums& wanted, Executor& executor,
+            Totals* totals, Totals* spare) {
   const int width = g.visible().width, height = g.visible().height;
-  const int left = g.guard_band.left, top = g.guard_band.top;
-  groups->depth.resize(width, height);
-  for (auto& image : groups->normal) image.resize(width, height);
-  groups->accepted.resize(width, height);
+  const std::vector<Channel> channels = wanted.channels();
+  for (Channel c : channels) spare->channel[c].resize(width, height);
   const AlignedImage<float>* normal[] = {&g.normal_x, &g.normal_y, &g.normal_z};
   for_rows(height, executor, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float depth = g.depth(x + left, y + top);
-      float n[3], sum[3] = {}, place = 0;
-      for (int k = 0; k < 3; ++k) n[k] = (*normal[k])(x + left, y + top);
-      unsigned accepted = 0;
-      int count = 0;
+    ShareJob job;
+    job.side = side;
+    job.channels = static_cast<int>(channels.size());
+    job.view = {.scale_x = g.camera.scale_x,
+                .scale_y = g.camera.scale_y,
+                .parallel = g.camera.orthographic};
+    job.axis_y = static_cast<float>(y + g.guard_band.top) + 0.5f - g.camera.center_v;
+    for (int x0 = 0; x0 < width; x0 += ShareJob::kMaxCount) {
+      job.count = std::min(ShareJob::kMaxCount, width - x0);
+      job.axis_x = static_cast<float>(x0 + g.guard_band.left) + 0.5f - g.camera.center_u;
       for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int nx = x + dx, ny = y + dy;
-          if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
-          const float other = g.depth(nx + left, ny + top);
-          if (!leaf_scalar::same_depth(depth, other)) continue;
-          float m[3], dot = 0;
-          for (int k = 0; k < 3; ++k) {
-            m[k] = (*normal[k])(nx + left, ny + top);
-            dot += m[k] * n[k];
+        // Without depth, what lies beyond the visible part has no weight.
+        auto copy = [&](const AlignedImage<float>& from, int left, int top, float beyond, float* to) {
+          for (int i = -1; i <= job.count; ++i) {
+            const int nx = x0 + i, ny = y + dy;
+            const bool inside = nx >= 0 && nx < width && ny >= 0 && ny < height;
+            to[i + 1] = inside ? from(nx + left, ny + top) : beyond;
           }
-          if (dot <= leaf_scalar::kLeastCosine && (dx != 0 || dy != 0)) continue;
-          accepted |= 1u << (3 * (dy + 1) + dx + 1);
-          ++count;
-          place += g.camera.orthographic ? other : 1 / other;
-          for (int k = 0; k < 3; ++k) sum[k] += m[k];
+        };
+        const int left = g.guard_band.left, top = g.guard_band.top;
+        ShareJob::Row& row = job.rows[dy + 1];
+        copy(g.depth, left, top, std::numeric_limits<float>::infinity(), row.depth);
+        for (int k = 0; k < 3; ++k) copy(*normal[k], left, top, 0, row.normal[k]);
+        for (int c = 0; c < job.channels; ++c) {
+          copy(totals->channel[channels[c]], 0, 0, 0, row.sums[c]);
         }
       }
-      groups->accepted(x, y) = static_cast<std::uint16_t>(accepted);
-      const float mean = place / static_cast<float>(std::max(count, 1));
-      groups->depth(x, y) = count == 0 ? depth : g.camera.orthographic ? mean : 1 / mean;
-      const float length = length_of(sum);
-      for (int k = 0; k < 3; ++k) groups->normal[k](x, y) = length > 0 ? sum[k] / length : n[k];
+      for (int c = 0; c < job.channels; ++c) job.out[c] = spare->channel[channels[c]].row(y) + x0;
+      share_row(&job);
     }
   });
+  for (Channel c : channels) std::swap(totals->channel[c], spare->channel[c]);
 }
 
-void gather(const Groups& groups, const Totals& far, const WantedSums& wanted, Executor& executor,
-            Totals* totals) {
-  const int width = groups.depth.width(), height = groups.depth.height();
-  const std::vector<Channel> channels = wanted.channels();
-  for_rows(height, executor, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const unsigned accepted = groups.accepted(x, y);
-      float sum[kChannelCount] = {};
-      int count = 0;
-      for (unsigned bits = accepted; bits != 0; bits &= bits - 1, ++count) {
-        const int bit = std::countr_zero(bits), dx = bit % 3 - 1, dy = bit / 3 - 1;
-        for (Channel c : channels) sum[c] += far.channel[c](x + dx, y + dy);
-      }
-      const float scale = count > 0 ? 9.0f / static_cast<float>(count) : 0.0f;
-      for (Channel c : channels) totals->channel[c](x, y) += scale * sum[c];
-    }
-  });
-}
-
-void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& executor,
+void blur_selectively(const view::Geometry& g, const WantedSums& wanted, Executor& executor,
                       Totals* totals, Totals* spare) {
   constexpr int kReach = leaf_scalar::kBlurReach;
-  const int width = groups.depth.width(), height = groups.depth.height();
+  const int width = g.visible().width, height = g.visible().height;
+  auto depth_at = [&](int x, int y) { return g.depth(x + g.guard_band.left, y + g.guard_band.top); };
   const std::vector<Channel> channels = wanted.channels();
   for (Channel c : channels) spare->channel[c].resize(width, height);
   for_rows(height, executor, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const float own = totals->channel[kObscurance](x, y), depth = groups.depth(x, y);
+      const float own = totals->channel[kObscurance](x, y), depth = depth_at(x, y);
       float sum[kChannelCount] = {}, weights = 0;
       for (int dy = std::max(-kReach, -y); dy <= std::min(kReach, height - 1 - y); ++dy) {
         for (int dx = std::max(-kReach, -x); dx <= std::min(kReach, width - 1 - x); ++dx) {
           const float other = totals->channel[kObscurance](x + dx, y + dy);
-          if (!leaf_scalar::blurs(own, other, depth, groups.depth(x + dx, y + dy))) continue;
+          if (!leaf_scalar::blurs(own, other, depth, depth_at(x + dx, y + dy))) continue;
           const float weight = leaf_scalar::blur_weight(std::abs(dx), std::abs(dy));
           weights += weight;
           for (Channel c : channels) sum[c] += weight * totals->channel[c](x + dx, y + dy);

@@ -1,7 +1,6 @@
 #ifndef OBSCURA_SRC_SCREEN_FAR_FIELD_TOTALS_H_
 #define OBSCURA_SRC_SCREEN_FAR_FIELD_TOTALS_H_
 
-#include <cstdint>
 #include <vector>
 
 #include "obscura/cone.h"
@@ -34,27 +33,18 @@ struct WantedSums {
   std::vector<Channel> channels() const;
 };
 
-// `planes` are as it is and transposed; member: &Plane::sums or &Plane::far_sums.
-void collect(const Plane planes[2], SumImages Plane::*member, const WantedSums& wanted,
-             Executor& executor, Totals* totals);
+// `planes` are as it is and transposed.
+void collect(const Plane planes[2], const WantedSums& wanted, Executor& executor, Totals* totals);
 
-// Groups of 3x3 pixels (Timonen 2013, section 10). Which of a pixel's 3x3 neighbours see the same
-// surface, and their mean depth (on the lattice, where planes are linear) and normal, from which
-// the group's far field is seen.
-struct Groups {
-  AlignedImage<float> depth, normal[3];
-  AlignedImage<std::uint16_t> accepted;  // bit 3 (dy + 1) + dx + 1
-};
-void average_groups(const view::Geometry& geometry, Executor& executor, Groups* groups);
-
-// Adds to each pixel the far field of its accepted neighbours, each of which has a ninth of the
-// directions: nine times their mean.
-void gather(const Groups& groups, const Totals& far, const WantedSums& wanted, Executor& executor,
-            Totals* totals);
+// Where each pixel has slices of its share of the directions only (groups of side x side pixels),
+// gives it the other shares of its neighbours that see the same surface, weighted by how far each
+// lies from the other's plane (share_leaf.h). `spare` is where results are made.
+void gather(const view::Geometry& geometry, int side, const WantedSums& wanted, Executor& executor,
+            Totals* totals, Totals* spare);
 
 // Mean over the neighbours within two pixels whose visibility is within 7 % of the pixel's own and
 // which see the same surface. Its weights 1 2 3 2 1 give each pixel of a 3x3 pattern the same.
-void blur_selectively(const Groups& groups, const WantedSums& wanted, Executor& executor,
+void blur_selectively(const view::Geometry& geometry, const WantedSums& wanted, Executor& executor,
                       Totals* totals, Totals* spare);
 
 // From totals to what the caller asked for.

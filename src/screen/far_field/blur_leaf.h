@@ -1,6 +1,6 @@
-// Leaf functions, C++ and GLSL: see math/leaf-inl.h. Groups of pixels (Timonen 2013, section 10):
-// which neighbours see a pixel's surface, and the blur that follows.
-const float kLeastCosine = 0.5f, kDepthRatio = 0.03f;
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h. The blur after jitter (Timonen 2013, sections
+// 10 and 11.1).
+const float kDepthRatio = 0.03f;
 const int kBlurReach = 2;
 const float kBlurThreshold = 0.07f * 3.14159265f;  // of obscurance: 7 % of visibility
 

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/leaf_scalar.h"
 #include "screen/far_field/lines.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
+#include "screen/far_field/share.h"
 #include "screen/far_field/slices.h"
 #include "screen/far_field/totals.h"
 #include "screen/method.h"
 
 namespace obscura {
+namespace leaf_scalar {
+#include "screen/far_field/share_leaf.h"
+}  // namespace leaf_scalar
 
 namespace far_field {
 namespace {
@@ -87,6 +92,7 @@ class FarFieldMethod final : public Method {
     if (o.visibility.empty() && !wanted_.uniform && !wanted_.cosine) return {};
     Executor& executor = context.executor;
     const PassTimer& timer = context.timer;
+    if (settings_.separable > 1) timer.time("share", [&] { shared_.prepare(g, executor); });
     timer.time("fill", [&] { prepare(g, executor); });
     Progress progress(static_cast<std::int64_t>(plan_.directions.size()), context.progress);
     const ScanSettings scan_settings{settings_.interval, settings_.receiver_slope,
@@ -100,9 +106,7 @@ class FarFieldMethod final : public Method {
     }
     timer.time("collect", [&] { collect(planes_, wanted_, executor, &totals_); });
     if (settings_.separable > 1) {
-      timer.time("gather", [&] {
-        gather(g, settings_.separable, wanted_, executor, &totals_, &spare_);
-      });
+      timer.time("gather", [&] { shared_.gather(g, wanted_, executor, &totals_, &spare_); });
     }
     if (settings_.jitter && settings_.blur) {
       timer.time("blur", [&] { blur_selectively(g, wanted_, executor, &totals_, &spare_); });
@@ -133,7 +137,8 @@ class FarFieldMethod final : public Method {
     auto taps = taps_.begin();
     for (int row = 0; row < row_cells; ++row) {
       for (int phase = 0; phase < phases_; ++phase) {
-        for (const Segment& segment : direction.segments_of(cell_of(direction, side_, row, phase))) {
+        for (const Segment& segment :
+             direction.segments_of(cell_of(direction, side_, row, phase))) {
           list_taps(p, direction, segment, phase + p.left, &*taps++);
         }
       }
@@ -148,20 +153,30 @@ class FarFieldMethod final : public Method {
       const int end = std::min(rows, (task + 1) * kRowsPerTask);
       for (int y = task * kRowsPerTask; y < end; ++y) {
         for (int phase = 0; phase < phases; ++phase) {
-          evaluate_row(direction, layout, y, phase, plane);
+          const int count = (plane->visible_width - phase + phases_ - 1) / phases_;
+          auto run = [&](int begin, int receivers_end) {
+            evaluate_row(direction, layout, y, phase, begin, receivers_end, plane);
+          };
+          const int cell = cell_of(direction, side_, y, phase), n = settings_.separable;
+          const int own = leaf_scalar::share_of_cell(cell / side_, cell % side_, n);
+          if (leaf_scalar::has_share(own, direction.share, n, false)) {
+            run(0, count);
+          } else if (leaf_scalar::has_share(own, direction.share, n, true)) {
+            shared_.for_dense(direction.transposed, y, count, run);
+          }
         }
       }
     });
   }
 
+  // Receivers from `begin` to `end` of a row's phase.
   void evaluate_row(const Direction& direction, const LineLayout& layout, int y, int phase,
-                    Plane* plane) {
+                    int begin, int end, Plane* plane) {
     Plane& p = *plane;
     const int v = y + p.top, u = phase + p.left, row = direction.sign > 0 ? v : p.height - 1 - v;
     const int interval = settings_.interval;
     const int near = near_rows(direction, interval, row, p.height);
     const int cell = cell_of(direction, side_, y, phase);
-    if (settings_.separable > 1 && direction.group != cell) return;
     const std::vector<Segment>& segments = direction.segments_of(cell);
     IntervalRead intervals[kMaxIntervals];
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -173,15 +188,16 @@ class FarFieldMethod final : public Method {
                    .sign = direction.sign,
                    .row = y,
                    .column = phase,
-                   .count = (p.visible_width - phase + phases_ - 1) / phases_,
+                   .begin = begin,
+                   .count = end,
                    .segment = &segment,
                    .texels = p.lattice.row(v),
                    .backs = p.finite ? p.back.row(v) : nullptr,
                    .taps = taps_of(y, phase, i).data(),
                    .tap_count = count_taps(segment, row, near, p.height),
                    .intervals = intervals,
-                   .interval_count = list_intervals(direction, segment, layout, Climb(settings_), row,
-                                                    u, p.finite, &buffer_, intervals),
+                   .interval_count = list_intervals(direction, segment, layout, Climb(settings_),
+                                                    row, u, p.finite, &buffer_, intervals),
                    .slope = settings_.receiver_slope < 0 ? 1.0f : -1.0f,
                    .slack = join_slack(p),
                    .dither = dither(direction, segment),
@@ -209,6 +225,7 @@ class FarFieldMethod final : public Method {
   const FarFieldPlan plan_;
   const FarFieldSettings& settings_ = plan_.settings;
   const int side_ = group_side(settings_), phases_ = plan_.phases, margin_;
+  SharedWork shared_{side_, phases_};
   WantedSums wanted_;
   Plane planes_[2];
   Totals totals_, spare_;

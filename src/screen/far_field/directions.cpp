@@ -4,7 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-namespace obscura::far_field {
+#include "math/leaf_scalar.h"
+
+namespace obscura {
+namespace leaf_scalar {
+#include "screen/far_field/share_leaf.h"
+}  // namespace leaf_scalar
+
+namespace far_field {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -16,15 +23,7 @@ constexpr double kFirstSample = 0.125;  // pixels
 constexpr double kColumnsWithin = 16;   // pixels; what a sample subtends shrinks with distance
 constexpr double kLeastBetweenSamples = 0.1;  // pixels
 
-// Which share a cell has, row by row. Of 3 x 3 a magic square's, so that each row and each column of
-// cells has the same mean; of 2 x 2 neighbouring shares lie beside each other.
 constexpr int kJitterCells = 9;
-constexpr int kSquareOrder[kJitterCells] = {1, 6, 5, 8, 4, 0, 3, 2, 7}, kPairOrder[] = {0, 1, 3, 2};
-
-int cell_of_share(int share, int side) {
-  const int* order = side == 3 ? kSquareOrder : kPairOrder;
-  return static_cast<int>(std::find(order, order + side * side, share) - order);
-}
 
 // Rounded so that samples on lattice lines stay on them, mirrored ones too.
 double to_lattice(double x) { return std::round(x * 4096) / 4096; }
@@ -113,11 +112,12 @@ std::vector<Direction> make_directions(const FarFieldSettings& s) {
     const double angle = std::atan2(d.transposed ? v : u, std::abs(d.transposed ? u : v));
     d.slope = static_cast<float>(std::tan(angle));
     d.strip_offset = strip_offset(d.transposed, d.sign, angle, s.interval);
-    d.group = s.separable > 1 ? cell_of_share(k % (s.separable * s.separable), s.separable) : 0;
+    d.share = k % (s.separable * s.separable);
     d.segments.resize(s.jitter ? kJitterCells : 1);
     const double width = 2 * kPi / s.directions / s.segments;
     for (std::size_t cell = 0; cell < d.segments.size(); ++cell) {
-      const double turn = s.jitter ? width * (kSquareOrder[cell] - 0.5 * (kJitterCells - 1)) / kJitterCells : 0;
+      const int c = static_cast<int>(cell), place = leaf_scalar::share_of_cell(c / 3, c % 3, 3);
+      const double turn = s.jitter ? width * (place - 0.5 * (kJitterCells - 1)) / kJitterCells : 0;
       for (int i = 0; i < s.segments; ++i) {
         d.segments[cell].push_back(
             make_segment(s, angle + turn + width * (i - 0.5 * s.segments), width));
@@ -138,4 +138,5 @@ int sideways_reach(const std::vector<Direction>& directions, int interval) {
   return static_cast<int>(std::ceil(slope * 2 * interval)) + 2;
 }
 
-}  // namespace obscura::far_field
+}  // namespace far_field
+}  // namespace obscura

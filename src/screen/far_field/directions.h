@@ -27,7 +27,7 @@ struct Direction {
   int sign = 1;
   float slope = 0;
   int strip_offset = 0;  // rows by which the strips begin before the image
-  int group = 0;         // of the separable evaluation: the cell that evaluates this direction
+  int share = 0;         // of the directions that pixels of a group share out
   // One set of segments; where jittered, one per cell, each turned by its own angle.
   std::vector<std::vector<Segment>> segments;
 
@@ -36,7 +36,8 @@ struct Direction {
   }
 };
 
-// Groups of n x n pixels share directions or jitter (3 x 3); a cell is a pixel's place in its group.
+// Groups of n x n pixels share directions or jitter (3 x 3); a cell is a pixel's place in its
+// group.
 int group_side(const FarFieldSettings& settings);
 
 // Rows from a receiver to its first interval lie in [interval, 2 interval).

@@ -21,7 +21,7 @@ vec2 plane_center() {
 
 // A direction in the tables: four quads.
 struct Direction {
-  int sign_v, group, strip_offset, lines;
+  int sign_v, share, strip_offset, lines;
   int rows, headers, row_base;
   uvec4 strips, raw_rows;  // of levels 0 to 3
 };
@@ -29,7 +29,7 @@ Direction direction_at(int i) {
   const uvec4 a = quads[view.directions + 4 * i], b = quads[view.directions + 4 * i + 1];
   Direction d;
   d.sign_v = int(a.x);
-  d.group = int(a.y);
+  d.share = int(a.y);
   d.strip_offset = int(a.z);
   d.lines = int(a.w);
   d.rows = int(b.x);

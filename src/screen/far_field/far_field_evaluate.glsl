@@ -11,6 +11,7 @@
 #include "screen/far_field/lattice_leaf.h"
 #include "screen/far_field/scan_leaf.h"
 #include "screen/far_field/slices_leaf.h"
+#include "screen/far_field/share_leaf.h"
 #include "gpu/view.glsl"
 
 #include "screen/far_field/far_field.glsl"
@@ -52,10 +53,13 @@ struct Place {
 void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place,
                     inout Totals totals);
 
-// Which cell of its group a pixel is in this frame, the image's way.
-int cell_of(ivec2 p) {
-  const ivec2 image = pattern_place(turned(p)) % kSide;
-  return kSide * image.y + image.x;
+// Does the pixel evaluate the direction, whose cell is `cell` in this frame?
+bool evaluates(ivec2 p, ivec2 cell, int share) {
+  if (kShareSide == 1) return true;
+  const ivec2 tile = turned(p) / kTilePixels;
+  const int columns = (view.visible_width + kTilePixels - 1) / kTilePixels;
+  return has_share(share_of_cell(cell.y, cell.x, kShareSide), share, kShareSide,
+                   dense[tile.y * columns + tile.x] != 0u);
 }
 
 void main() {
@@ -69,12 +73,12 @@ void main() {
   const vec3 normal = receivers[pixel].xyz;
   const Receiver r = receiver_at(p, lattice[texel], normal);
   Totals totals = Totals(0.0, 0.0, vec3(0.0));
-  const int cell = cell_of(p);
+  const ivec2 cell = pattern_place(turned(p)) % kSide;
   // Receivers of a row and a cell that stand alike between scanned lines read alike.
-  const int alike = ((kJitter ? 9 * p.y + cell : p.y) * kLineStep + p.x % kLineStep) * kSegments;
+  const int alike = ((kJitter ? 9 * p.y + 3 * cell.y + cell.x : p.y) * kLineStep + p.x % kLineStep) * kSegments;
   for (int i = 0; r.surface && i < view.direction_count; ++i) {
     const Direction d = direction_at(i);
-    if (kSide > 1 && !kJitter && d.group != cell) continue;
+    if (!evaluates(p, cell, d.share)) continue;
     const Place place =
         Place(texel, d.sign_v * view.lattice_stride, p.x / kLineStep,
               -float(d.sign_v) * (float(at.y) - plane_center().y));

@@ -5,6 +5,7 @@
 #include "math/slice_sums.h"
 #include "screen/far_field/gpu_tables.h"
 #include "screen/far_field/plan.h"
+#include "screen/far_field/share.h"
 #include "screen/gpu.h"
 #include "shaders/far_field_blur.h"
 #include "shaders/far_field_collect.h"
@@ -14,6 +15,7 @@
 #include "shaders/far_field_matter.h"
 #include "shaders/far_field_merge.h"
 #include "shaders/far_field_scan.h"
+#include "shaders/far_field_share.h"
 #include "shaders/far_field_sum.h"
 #include "view/gpu.h"
 
@@ -45,6 +47,7 @@ class FarFieldProgram {
     }
     normals_ = g.normals;
     program_->add_table(tables_.words());
+    if (settings_.separable > 1) add_share();
     for (bool turned : {false, true}) add_plane(tables_.plane(turned));
     std::uint64_t raw = 1, sums = 1;
     for (const Batch& b : tables_.batches()) {
@@ -74,6 +77,24 @@ class FarFieldProgram {
     return std::uint64_t{finite() ? 8u : 4u} * p.stride * p.height;
   }
   float slope() const { return settings_.receiver_slope < 0 ? 1.0f : -1.0f; }
+
+  int tile() const { return far_field::tile_of_phases(tables_.phases()); }
+
+  void add_share() {
+    namespace io = far_field_share_io;
+    const Extent visible = frame_.visible();
+    const Extent tiles{(visible.width + tile() - 1) / tile(),
+                       (visible.height + tile() - 1) / tile()};
+    dense_ = program_->add_region(std::uint64_t{4} * tiles.width * tiles.height);
+    program_->add(
+        {.name = "share",
+         .shader = shaders::far_field_share,
+         .constants = {{io::kSide, settings_.separable},
+                       {io::kTilePixels, tile()},
+                       {io::kRowStep, far_field::kKnownStep}},
+         .slots = {{io::kDepthAt, depth_}, {io::kNormalsAt, normals_}, {io::kDenseAt, dense_}},
+         .size = tiles});
+  }
 
   void add_plane(const PlaneShape& p) {
     PlaneRegions& r = regions(p);
@@ -173,8 +194,7 @@ class FarFieldProgram {
   std::uint64_t evaluation_bytes(const Batch& b) const {
     const std::uint64_t lines = finite() ? tables_.raw_bytes(b) : tables_.sum_bytes(b);
     const int sums = channels() * (regions(*b.plane).filled ? 2 : 1);
-    return lines + b.table_bytes +
-           lattice_bytes(*b.plane) + frame_.visible_bytes(4 + sums);
+    return lines + b.table_bytes + lattice_bytes(*b.plane) + frame_.visible_bytes(4 + sums);
   }
 
   void add_evaluation(const Batch& b) {
@@ -188,6 +208,8 @@ class FarFieldProgram {
                             {io::kChord, settings_.profile == SlabProfile::kAdaptiveChord},
                             {io::kSums, static_cast<int>(sums_)},
                             {io::kSide, far_field::group_side(settings_)},
+                            {io::kShareSide, settings_.separable},
+                            {io::kTilePixels, tile()},
                             {io::kPhases, tables_.phases()},
                             {io::kLineStep, settings_.line_step},
                             {io::kSegments, settings_.segments},
@@ -195,7 +217,9 @@ class FarFieldProgram {
               .slots = {{io::kTablesAt, tables()},
                         {io::kLatticeAt, r.lattice},
                         {io::kReceiversAt, r.receivers},
-                        {io::kPlaneSumsAt, r.sums}},
+                        {io::kPlaneSumsAt, r.sums},
+                        // A binding wants a region even where nothing is shared.
+                        {io::kDenseAt, dense_ < 0 ? tables() : dense_}},
               .size = {(p.visible.width + phases - 1) / phases, p.visible.height},
               .layers = phases,
               .push = push_words(io::Push{.rho_radius = rho_.radius,
@@ -263,9 +287,11 @@ class FarFieldProgram {
 
   void add_gather(int totals) {
     namespace io = far_field_gather_io;
-    Pass pass = last_pass("gather", shaders::far_field_gather,
-                          {{io::kDepthAt, depth_}, {io::kTotalsAt, totals}});
+    Pass pass =
+        last_pass("gather", shaders::far_field_gather,
+                  {{io::kDepthAt, depth_}, {io::kTotalsAt, totals}, {io::kDenseAt, dense_}});
     pass.constants.emplace_back(io::kSide, settings_.separable);
+    pass.constants.emplace_back(io::kTilePixels, tile());
     program_->add(std::move(pass));
   }
 
@@ -283,6 +309,7 @@ class FarFieldProgram {
   Program* program_;
   PlaneRegions regions_[2];
   int depth_ = -1, back_ = -1, normals_ = -1;
+  int dense_ = -1;
   int raw_ = -1, line_sums_ = -1, counts_ = -1;
 };
 

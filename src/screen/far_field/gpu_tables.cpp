@@ -160,7 +160,7 @@ void FarFieldTables::make_tables(Batch* batch) {
     const LineLayout layout(p.width, p.height, *d, settings_.line_step);
     const StripLevels levels(p.height, d->strip_offset, settings_.interval);
     for (const auto& [word, value] :
-         {std::pair{0, d->sign}, {1, d->group}, {2, d->strip_offset}, {3, layout.lines}}) {
+         {std::pair{0, d->sign}, {1, d->share}, {2, d->strip_offset}, {3, layout.lines}}) {
       quads_.set(quad, word, value);
     }
     quads_.set(quad + 1, 0, quads_.size());

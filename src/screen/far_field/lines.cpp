@@ -70,9 +70,7 @@ int count_taps(const Segment& segment, int row, int rows, int height) {
   return count;
 }
 
-int phases_of(const FarFieldSettings& s) {
-  return std::lcm(group_side(s), s.line_step);
-}
+int phases_of(const FarFieldSettings& s) { return std::lcm(group_side(s), s.line_step); }
 
 int cell_of(const Direction& direction, int side, int row, int phase) {
   const int u = phase % side, v = row % side;

@@ -23,7 +23,7 @@ void AddMatterSlices(const SliceRow& job) {
   leaf::SliceIntegral<kKind, true, kSums> slices(*job.rho);
   const int lanes = static_cast<int>(hn::Lanes(d));
   const float* own_back = p.back.at(job.row + p.top, job.column + p.left);
-  for (int i = 0; i < job.count; i += lanes) {
+  for (int i = job.begin; i < job.count; i += lanes) {
     const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
     const leaf::Part& part = r.part;

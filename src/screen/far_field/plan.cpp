@@ -64,9 +64,8 @@ Status make_plan(const FarFieldSettings& given, FarFieldPlan* plan) {
                                  ", such as ", (16 + shares - 1) / shares * shares));
   }
   if (settings.separable > 1 && settings.jitter) {
-    return invalid_argument(
-        text("jitter and separable ", settings.separable,
-             " exclude each other: both share out groups of pixels"));
+    return invalid_argument(text("jitter and separable ", settings.separable,
+                                 " exclude each other: both share out groups of pixels"));
   }
   if (settings.occluder.kind == OccluderKind::kLayers) {
     return unsupported("the far field takes the occluders auto, solid, thickness and back-depth");

@@ -1,9 +1,25 @@
-// Leaf functions, C++ and GLSL: see math/leaf-inl.h. Groups of n x n pixels, each of which has the
-// slices of its share of the directions: what a neighbour's slices count for a pixel.
-const float kPlaneGap = 0.5f;      // pixel footprints
-const float kLeastAlike = 0.8f;    // cosine between normals
-const float kOwnWeight = 2.0f;
-const float kMeanWeight = 0.3f;    // of the mean over all shares, within one share
+// Leaf functions, C++ and GLSL: see math/leaf-inl.h. Work shared by groups of side x side pixels (2
+// or 3), each of which evaluates its share of the directions: which share, and what a neighbour's
+// slices count for a pixel.
+const float kPlaneGap = 0.5f;    // pixel footprints
+const float kLeastAlike = 0.8f;  // cosine between normals
+// Tiles where less than this part of the shares reaches a pixel evaluate `side` times as many.
+const float kEnough = 0.75f;
+const int kKnownUnits = 16;  // of a share; whole numbers, so that devices agree
+
+// Direction k belongs to share k mod side^2. Of 3 x 3 a magic square, so that rows and columns have
+// the same mean; of 2 x 2 shares beside each other lie beside each other.
+LEAF(int) share_of_cell(int row, int column, int side) {
+  return side == 3   ? 3 * (2 * (row + column) % 3) + (1 + row + 2 * column) % 3
+         : side == 2 ? 2 * row + (row ^ column)
+                     : 0;
+}
+
+// Does the pixel evaluate directions of this share?
+LEAF(bool) has_share(int own, int share, int side, bool dense) {
+  int turn = (share + side * side - own) % (side * side);
+  return turn == 0 || (dense && turn % side == 0);
+}
 
 // A surface point in eye space, z away from the camera, and its normal, z likewise.
 struct SharePoint {
@@ -15,9 +31,9 @@ LEAF(Real) distance_to_plane(SharePoint of, Real dx, Real dy, Real dz) {
   return leaf_abs(leaf_fma(of.nx, dx, leaf_fma(of.ny, dy, of.nz * dz)));
 }
 
-// By the squared distance in the image: exp(-square / 2), and the pixel's own.
-LEAF(Real) weight_apart(int square) {
-  return real(square == 0 ? kOwnWeight : square == 1 ? 0.60653066f : 0.36787944f);
+// By the place in a window of 3 x 3 pixels: every share has the same where all see one surface.
+LEAF(Real) weight_of_place(int dx, int dy, int side) {
+  return real(side == 3 ? 1.0f : (dx == 0 ? 1.0f : 0.5f) * (dy == 0 ? 1.0f : 0.5f));
 }
 
 // By the larger of the distances from each to the other's plane, in kPlaneGap footprints: about
@@ -31,9 +47,6 @@ LEAF(Real) weight_of_surface(SharePoint own, SharePoint other, Real inverse_foot
   Real near = leaf_max(leaf_nfma(e, e, real(1.0f)), real(0.0f));
   Real near2 = near * near;
   Real cosine = leaf_fma(own.nx, other.nx, leaf_fma(own.ny, other.ny, own.nz * other.nz));
-  Real alike = leaf_max((cosine - real(kLeastAlike)) * real(1.0f / (1.0f - kLeastAlike)), real(0.0f));
-  return near2 * near2 * alike;
+  Real over = (cosine - real(kLeastAlike)) * real(1.0f / (1.0f - kLeastAlike));
+  return near2 * near2 * leaf_max(over, real(0.0f));
 }
-
-// Of a share with this sum of weights, beside the mean of all shares.
-LEAF(Real) share_certainty(Real weights) { return leaf_reciprocal(weights + real(kMeanWeight)); }

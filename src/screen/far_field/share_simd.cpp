@@ -45,58 +45,61 @@ HWY_INLINE leaf::SharePoint PointAt(const ShareJob& job, int i, int row, int col
           hn::Neg(hn::LoadU(d, r.normal[2] + at))};
 }
 
-// In a window of 3 x 3 pixels, those of one share lie alike for every pixel.
-template <int kSide>
-int ShareOf(int row, int column) {
-  return kSide == 2 ? 2 * (row & 1) + (column & 1) : 3 * (row + 1) + column + 1;
-}
-
-template <int kSide>
-void ShareRow(ShareJob* job) {
-  constexpr int kShares = kSide * kSide;
-  const D d;
-  const V zero = hn::Zero(d);
-  const float footprint = std::max(job->view.scale_x, job->view.scale_y);
-  for (int i = 0; i < job->count; i += static_cast<int>(hn::Lanes(d))) {
-    hn::Mask<D> surface, other_surface;
-    const leaf::SharePoint own = PointAt(*job, i, 0, 0, &surface);
-    const V along = job->view.parallel ? hn::Set(d, 1.0f) : own.z;
-    const V inverse = leaf::leaf_reciprocal(hn::Mul(along, hn::Set(d, footprint)));
-    V weight[9], weights[kShares];
-    std::fill_n(weights, kShares, zero);
+// What neighbours weigh for the pixels from i on.
+struct Weights {
+  Weights(const ShareJob& job, int i) {
+    const D d;
+    hn::Mask<D> other_surface;
+    const leaf::SharePoint own = PointAt(job, i, 0, 0, &surface);
+    const float footprint = std::max(job.view.scale_x, job.view.scale_y);
+    const V inverse = leaf::leaf_reciprocal(
+        hn::Mul(job.view.parallel ? hn::Set(d, 1.0f) : own.z, hn::Set(d, footprint)));
     for (int k = 0; k < 9; ++k) {
       const int row = k / 3 - 1, column = k % 3 - 1;
-      const leaf::SharePoint other = PointAt(*job, i, row, column, &other_surface);
-      weight[k] = hn::IfThenElseZero(hn::And(surface, other_surface),
-                                     leaf::weight_apart(row * row + column * column));
-      if (k != 4) weight[k] = hn::Mul(weight[k], leaf::weight_of_surface(own, other, inverse));
-      V& sum = weights[ShareOf<kSide>(row, column)];
-      sum = hn::Add(sum, weight[k]);
+      const leaf::SharePoint other = PointAt(job, i, row, column, &other_surface);
+      V w = leaf::weight_of_place(column, row, job.side);
+      if (k != 4) w = hn::Mul(w, leaf::weight_of_surface(own, other, inverse));
+      of[k] = hn::IfThenElseZero(hn::And(surface, other_surface), w);
     }
-    V certain = zero, certainty[kShares];
-    for (int s = 0; s < kShares; ++s) {
-      certainty[s] = leaf::share_certainty(weights[s]);
-      certain = hn::MulAdd(weights[s], certainty[s], certain);
+  }
+
+  hn::Mask<D> surface;
+  V of[9];
+};
+
+void ShareRow(ShareJob* job) {
+  const D d;
+  const V shares = hn::Set(d, static_cast<float>(job->side * job->side));
+  for (int i = 0; i < job->count; i += static_cast<int>(hn::Lanes(d))) {
+    const Weights w(*job, i);
+    V known = hn::Zero(d);
+    for (int k = 0; k < 9; ++k) {
+      known = hn::MulAdd(w.of[k], hn::LoadU(d, job->rows[k / 3].shares + i + k % 3), known);
     }
-    const V inverse_certain = hn::IfThenElseZero(
-        surface, hn::Div(hn::Set(d, 1.0f), hn::Max(certain, hn::Set(d, 1e-6f))));
+    const V scale = hn::IfThenElseZero(w.surface, hn::Div(shares, known));
     for (int c = 0; c < job->channels; ++c) {
-      V total = zero, scale = zero;
+      V total = hn::Zero(d);
       for (int k = 0; k < 9; ++k) {
-        const int row = k / 3 - 1, column = k % 3 - 1;
-        const V sum = hn::LoadU(d, job->rows[row + 1].sums[c] + i + column + 1);
-        total = hn::MulAdd(hn::Mul(weight[k], certainty[ShareOf<kSide>(row, column)]), sum, total);
+        total = hn::MulAdd(w.of[k], hn::LoadU(d, job->rows[k / 3].sums[c] + i + k % 3), total);
       }
-      // What a share lacks in weight it takes from the mean.
-      const V mean = hn::Mul(total, inverse_certain);
-      for (int s = 0; s < kShares; ++s) scale = hn::Add(scale, certainty[s]);
-      total = hn::MulAdd(hn::Mul(hn::Set(d, leaf::kMeanWeight), scale), mean, total);
-      hn::BlendedStore(total, hn::FirstN(d, job->count - i), d, job->out[c] + i);
+      hn::BlendedStore(hn::Mul(total, scale), hn::FirstN(d, job->count - i), d, job->out[c] + i);
     }
   }
 }
 
-void ShareRowAny(ShareJob* job) { job->side == 2 ? ShareRow<2>(job) : ShareRow<3>(job); }
+void FindKnown(ShareJob* job) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  for (int i = 0; i < job->count; i += static_cast<int>(hn::Lanes(d))) {
+    const Weights w(*job, i);
+    V known = hn::Zero(d);
+    for (const V& weight : w.of) known = hn::Add(known, weight);
+    known = hn::IfThenElse(w.surface, known, hn::Set(d, static_cast<float>(job->side * job->side)));
+    const V units =
+        hn::MulAdd(known, hn::Set(d, static_cast<float>(leaf::kKnownUnits)), hn::Set(d, 0.5f));
+    hn::StoreU(hn::ConvertTo(di, units), di, job->known + i);
+  }
+}
 
 }  // namespace far_field::HWY_NAMESPACE
 }  // namespace obscura
@@ -105,9 +108,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace obscura::far_field {
 
-HWY_EXPORT(ShareRowAny);
+HWY_EXPORT(ShareRow);
+HWY_EXPORT(FindKnown);
 
-void share_row(ShareJob* job) { HWY_DYNAMIC_DISPATCH(ShareRowAny)(job); }
+void share_row(ShareJob* job) { HWY_DYNAMIC_DISPATCH(ShareRow)(job); }
+void find_known(ShareJob* job) { HWY_DYNAMIC_DISPATCH(FindKnown)(job); }
 
 }  // namespace obscura::far_field
 #endif

@@ -39,8 +39,8 @@ struct SliceRow {
   SliceSums sums;
   bool chord;
   int sign;
-  int row, column;  // of the visible part; `column` is the first receiver's
-  int count;        // receivers
+  int row, column;   // of the visible part; `column` is the first receiver's
+  int begin, count;  // receivers from `begin`, a multiple of 16, up to `count`
   const Segment* segment;
   const float* texels;  // of Plane::lattice, in the receivers' row
   const float* backs;   // finite occluders: the same of Plane::back

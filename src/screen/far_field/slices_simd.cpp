@@ -33,7 +33,7 @@ void AddSlices(const SliceRow& job) {
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), tiny = hn::Set(d, leaf::kSmallest);
   const int lanes = static_cast<int>(hn::Lanes(d));
   leaf::SliceIntegral<kKind, kChord, kSums> slices(*job.rho);
-  for (int i = 0; i < job.count; i += lanes) {
+  for (int i = job.begin; i < job.count; i += lanes) {
     const Receivers r = MakeReceivers(f, i);
     if (hn::AllFalse(d, r.surface)) continue;
     const leaf::Part& part = r.part;

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "math/leaf_scalar.h"
 #include "screen/far_field/finish_kernel.h"
-#include "screen/far_field/share_kernel.h"
 
 namespace obscura {
 namespace leaf_scalar {
@@ -135,52 +133,13 @@ void collect(const Plane planes[2], const WantedSums& wanted, Executor& executor
   if (wanted.cosine) add_vector(kCosineVector);
 }
 
-void gather(const view::Geometry& g, int side, const WantedSums& wanted, Executor& executor,
-            Totals* totals, Totals* spare) {
-  const int width = g.visible().width, height = g.visible().height;
-  const std::vector<Channel> channels = wanted.channels();
-  for (Channel c : channels) spare->channel[c].resize(width, height);
-  const AlignedImage<float>* normal[] = {&g.normal_x, &g.normal_y, &g.normal_z};
-  for_rows(height, executor, [&](int y) {
-    ShareJob job;
-    job.side = side;
-    job.channels = static_cast<int>(channels.size());
-    job.view = {.scale_x = g.camera.scale_x,
-                .scale_y = g.camera.scale_y,
-                .parallel = g.camera.orthographic};
-    job.axis_y = static_cast<float>(y + g.guard_band.top) + 0.5f - g.camera.center_v;
-    for (int x0 = 0; x0 < width; x0 += ShareJob::kMaxCount) {
-      job.count = std::min(ShareJob::kMaxCount, width - x0);
-      job.axis_x = static_cast<float>(x0 + g.guard_band.left) + 0.5f - g.camera.center_u;
-      for (int dy = -1; dy <= 1; ++dy) {
-        // Without depth, what lies beyond the visible part has no weight.
-        auto copy = [&](const AlignedImage<float>& from, int left, int top, float beyond, float* to) {
-          for (int i = -1; i <= job.count; ++i) {
-            const int nx = x0 + i, ny = y + dy;
-            const bool inside = nx >= 0 && nx < width && ny >= 0 && ny < height;
-            to[i + 1] = inside ? from(nx + left, ny + top) : beyond;
-          }
-        };
-        const int left = g.guard_band.left, top = g.guard_band.top;
-        ShareJob::Row& row = job.rows[dy + 1];
-        copy(g.depth, left, top, std::numeric_limits<float>::infinity(), row.depth);
-        for (int k = 0; k < 3; ++k) copy(*normal[k], left, top, 0, row.normal[k]);
-        for (int c = 0; c < job.channels; ++c) {
-          copy(totals->channel[channels[c]], 0, 0, 0, row.sums[c]);
-        }
-      }
-      for (int c = 0; c < job.channels; ++c) job.out[c] = spare->channel[channels[c]].row(y) + x0;
-      share_row(&job);
-    }
-  });
-  for (Channel c : channels) std::swap(totals->channel[c], spare->channel[c]);
-}
-
 void blur_selectively(const view::Geometry& g, const WantedSums& wanted, Executor& executor,
                       Totals* totals, Totals* spare) {
   constexpr int kReach = leaf_scalar::kBlurReach;
   const int width = g.visible().width, height = g.visible().height;
-  auto depth_at = [&](int x, int y) { return g.depth(x + g.guard_band.left, y + g.guard_band.top); };
+  auto depth_at = [&](int x, int y) {
+    return g.depth(x + g.guard_band.left, y + g.guard_band.top);
+  };
   const std::vector<Channel> channels = wanted.channels();
   for (Channel c : channels) spare->channel[c].resize(width, height);
   for_rows(height, executor, [&](int y) {

@@ -36,12 +36,6 @@ struct WantedSums {
 // `planes` are as it is and transposed.
 void collect(const Plane planes[2], const WantedSums& wanted, Executor& executor, Totals* totals);
 
-// Where each pixel has slices of its share of the directions only (groups of side x side pixels),
-// gives it the other shares of its neighbours that see the same surface, weighted by how far each
-// lies from the other's plane (share_leaf.h). `spare` is where results are made.
-void gather(const view::Geometry& geometry, int side, const WantedSums& wanted, Executor& executor,
-            Totals* totals, Totals* spare);
-
 // Mean over the neighbours within two pixels whose visibility is within 7 % of the pixel's own and
 // which see the same surface. Its weights 1 2 3 2 1 give each pixel of a 3x3 pattern the same.
 void blur_selectively(const view::Geometry& geometry, const WantedSums& wanted, Executor& executor,

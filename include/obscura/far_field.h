@@ -78,7 +78,7 @@ void visit_fields(Self& s, Visitor&& v) {
                       "world units",
                       {},
                       "How thick matter is assumed to be behind each depth sample."});
-  v(s.preset, Field{"preset", "", {}, "Overrides directions, segments and near_step."});
+  v(s.preset, Field{"preset", "", {}, "Overrides directions, segments, near_step and separable."});
   v(s.directions,
     Field{"directions", "", closed(4, 64), "Directions K in which the depth image is scanned."});
   v(s.segments, Field{"segments", "per direction", closed(1, 8), "Sectors S per direction."});

@@ -169,8 +169,8 @@ TEST(FarFieldSharing, StaysNearTheFullEvaluation) {
     full.directions = 18;
     const std::vector<float> v = visibility(in.field(), full);
     for (const Variant& variant :
-         {Variant{"separable", [](auto& s) { s.separable = 3; }, 0.02},
-          Variant{"separable, not blurred", [](auto& s) { s.separable = 3, s.blur = false; }, 0.03},
+         {Variant{"3x3", [](auto& s) { s.separable = 3; }, 0.02},
+          Variant{"2x2", [](auto& s) { s.directions = 16, s.separable = 2; }, 0.02},
           Variant{"jitter", [](auto& s) { s.jitter = true; }, 0.025},
           Variant{"every 2nd line", [](auto& s) { s.line_step = 2; }, 0.01},
           Variant{"every 3rd line", [](auto& s) { s.line_step = 3; }, 0.012},
@@ -195,12 +195,14 @@ TEST(FarFieldSharing, StaysNearTheFullEvaluation) {
 TEST(FarFieldSharing, TinyImagesAndWrongSettingsAreAnswered) {
   for (const auto& [w, h] : {std::pair{1, 1}, {2, 1}, {1, 7}, {5, 4}}) {
     const synthetic::Input in = synthetic::blocks(w, h, Camera::perspective(1, w, h), 2);
-    for (int step : {1, 2, 3, 4}) {
-      FarFieldSettings s = settings_of(1);
-      s.directions = 9;
-      s.separable = 3;
-      s.line_step = step;
-      for (float v : visibility(in.field(), s)) EXPECT_TRUE(v >= 0 && v <= 1);
+    for (int side : {2, 3}) {
+      for (int step : {1, 2, 3, 4}) {
+        FarFieldSettings s = settings_of(1);
+        s.directions = side * side;
+        s.separable = side;
+        s.line_step = step;
+        for (float v : visibility(in.field(), s)) EXPECT_TRUE(v >= 0 && v <= 1);
+      }
     }
   }
   auto message = [](auto change) {
@@ -209,8 +211,15 @@ TEST(FarFieldSharing, TinyImagesAndWrongSettingsAreAnswered) {
     Estimator e;
     return std::string(Estimator::create(s, 8, 8, &e).message());
   };
-  EXPECT_NE(message([](auto& s) { s.separable = 2; }).find("must be 1 or 3"), std::string::npos);
-  EXPECT_NE(message([](auto& s) { s.separable = 3; }).find("multiple of 9"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.separable = 4; }).find("separable"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.separable = 3; }).find("multiple of 9, such as 18"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.separable = 2, s.directions = 18; }).find("multiple of 4"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) {
+              s.preset = FarFieldPreset::kFast, s.jitter = true;
+            }).find("jitter and preset fast exclude"),
+            std::string::npos);
   EXPECT_NE(
       message([](auto& s) { s.separable = 3, s.directions = 18, s.jitter = true; }).find("exclude"),
       std::string::npos);

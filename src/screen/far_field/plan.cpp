@@ -27,19 +27,28 @@ FarFieldSettings with_preset(FarFieldSettings s) {
     case FarFieldPreset::kNone:
       break;
     case FarFieldPreset::kFast:
-      s.directions = 8;
-      s.segments = 1;
-      break;
-    case FarFieldPreset::kBalanced:
       s.directions = 16;
       s.segments = 1;
+      s.separable = 2;
+      break;
+    case FarFieldPreset::kBalanced:
+      s.directions = 32;
+      s.segments = 1;
+      s.separable = 2;
       break;
     case FarFieldPreset::kHigh:
       s.directions = 16;
       s.segments = 3;
+      s.separable = 1;
       break;
   }
   return s;
+}
+
+// By the name that the caller gave it.
+std::string what_shares(const FarFieldSettings& s) {
+  if (s.preset == FarFieldPreset::kNone) return text("separable ", s.separable);
+  return text("preset ", write_setting(s.preset));
 }
 
 }  // namespace
@@ -64,7 +73,7 @@ Status make_plan(const FarFieldSettings& given, FarFieldPlan* plan) {
                                  ", such as ", (16 + shares - 1) / shares * shares));
   }
   if (settings.separable > 1 && settings.jitter) {
-    return invalid_argument(text("jitter and separable ", settings.separable,
+    return invalid_argument(text("jitter and ", what_shares(given),
                                  " exclude each other: both share out groups of pixels"));
   }
   if (settings.occluder.kind == OccluderKind::kLayers) {

@@ -31,16 +31,26 @@ set_tests_properties(
   LightCommandTest.ComparatorsLightThePicture
   LightCommandTest.KeepsTheConvolution
   WorkBoundsTest.LongImages
+  EndingsTest.ADamagedCacheChangesNothing
+  EndingsTest.EndedAtAnyMoment
+  EndingsTest.FullDisks
+  VolumePicture.ShowsScansAtFirstGlance
+  VulkanBackdrop.MovesNothingBeforeItByAnyMethod
+  VulkanHorizon.MatterAgreesForEveryOccluder
+  VulkanLight.EverySettingAgreesUnderEverySky
   PROPERTIES LABELS slow)
 set_tests_properties(
   FarFieldDirections.AgreeWithTracedOnes
   FarFieldDirections.UniformIntegralCarriesTheVisibility
   FarFieldSharing.StaysNearTheFullEvaluation
+  Backdrop.MovesNothingBeforeItByAnyMethod
   FarField.FiniteMatterAgreesWithRays
   Horizon.SlicesAgreeWithRaysThroughTheDepthField
+  HorizonMatter.PostsBeforeAWallAgreeWithRays
   HorizonDirections.SlicesAgreeWithRaysThroughTheDepthField
   ModelsOfMatter.InTheScenes
   ModelsOfMatter.OfTheBunny
+  Terrain.WallAsHighAsItIsFar
   TruthImages.Hall
   TruthImages.Meadow
   TruthImages.Tower

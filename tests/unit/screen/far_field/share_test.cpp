@@ -62,7 +62,7 @@ far_field::ShareJob wall(int side, int count) {
   return job;
 }
 
-// On a wall every pixel gets one of each share, whatever they are.
+// On a wall every pixel gets each share once.
 TEST(Share, AWallTakesEachShareOnce) {
   for (int side : {2, 3}) {
     const int count = 21;

@@ -68,6 +68,7 @@ std::vector<std::pair<const char*, MethodSettings>> methods(const Rendering& ren
   crytek3d.weighting = RayWeighting::kUniform;
   HorizonSettings hbao{.occluder = Occluder::solid()};
   hbao.falloff = falloff;
+  hbao.directions = hbao.steps = 8;
   hbao.variant = HorizonVariant::kClassic;
   HorizonSettings slices = hbao;
   slices.variant = HorizonVariant::kSlices;

@@ -39,6 +39,7 @@ std::vector<VoVariant> vo_variants(float radius) {
 VoVariant vo_horizon(float radius) {
   HorizonSettings s{.occluder = Occluder::solid()};
   s.falloff.radius = radius;
+  s.directions = s.steps = 8;
   s.variant = HorizonVariant::kClassic;
   s.blur = false;
   return {"horizon, 8 x 8", s};

@@ -63,7 +63,7 @@ std::vector<Row> far_field_rows(bool large) {
     rows.push_back({"horizon, default, any matter", horizon});
     horizon.occluder = Occluder::solid();
     rows.push_back({"horizon, solid", horizon});
-    horizon.directions = 4;
+    horizon.steps = 8;
     horizon.resolution = Resolution::kHalf;
     rows.push_back({"horizon, 4 x 8, half resolution, solid", horizon});
     horizon.occluder = Occluder::automatic();
@@ -85,7 +85,10 @@ std::vector<Row> volumetric_rows() {
   horizon.variant = HorizonVariant::kClassic;
   HemisphereSettings hemisphere{.occluder = Occluder::solid()};
   hemisphere.samples = 16;
-  HorizonSettings half{.occluder = Occluder::solid()};
+  horizon.directions = horizon.steps = 8;
+  HorizonSettings slices = horizon;
+  slices.variant = HorizonVariant::kSlices;
+  HorizonSettings half = slices;
   half.resolution = Resolution::kHalf;
   PointSettings screen = samples<PointSettings>(16, true);
   screen.pattern = PointPattern::kScreen;
@@ -98,7 +101,7 @@ std::vector<Row> volumetric_rows() {
           {"9 areas", samples<AreaSettings>(9, false)},
           {"horizon, classic, 8 x 8", horizon, false, 60.55, kQuadro},
           {"horizon, classic, 8 x 8, with directions", horizon, true},
-          {"horizon, slices, 8 x 8", HorizonSettings{.occluder = Occluder::solid()}},
+          {"horizon, slices, 8 x 8", slices},
           {"horizon, slices, 8 x 8, half resolution", half},
           {"Crytek2D, 16 samples", screen},
           {"Crytek2D, 16 samples, with directions", screen, true},

@@ -38,8 +38,8 @@ struct HorizonSettings {
   Occluder occluder = Occluder::automatic();
   HorizonVariant variant = HorizonVariant::kSlices;
   SlabProfile profile = SlabProfile::kAdaptiveChord;
-  int directions = 8;
-  int steps = 8;
+  int directions = 4;
+  int steps = 16;
   float angle_bias = 0.1f;
   int interleave = 4;
   bool blur = true;

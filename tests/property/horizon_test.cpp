@@ -59,6 +59,25 @@ Scene groove(double degrees) {
   return reference_scenes::room(121, 91, camera, guard, {right, left}, {offset, offset});
 }
 
+// Not where a plane ends at infinity: the last texel before the background stands a pixel wide
+// there, and the blur carries on what it hides.
+float least_away_from_background(const synthetic::Input& in, const std::vector<float>& v) {
+  constexpr int kReach = 4;
+  float least = 1;
+  for (int y = 0; y < in.height; ++y) {
+    for (int x = 0; x < in.width; ++x) {
+      bool surface = true;
+      for (int b = std::max(y - kReach, 0); b <= std::min(y + kReach, in.height - 1); ++b) {
+        for (int a = std::max(x - kReach, 0); a <= std::min(x + kReach, in.width - 1); ++a) {
+          surface &= std::isfinite(in.depth[b * in.width + a]);
+        }
+      }
+      if (surface) least = std::min(least, v[y * in.width + x]);
+    }
+  }
+  return least;
+}
+
 TEST(Horizon, PlanesAreOpenAtAnyTilt) {
   Random random(1);
   for (HorizonVariant variant : {HorizonVariant::kSlices, HorizonVariant::kClassic}) {
@@ -75,7 +94,7 @@ TEST(Horizon, PlanesAreOpenAtAnyTilt) {
         s.falloff = {.kind = kind, .radius = 10};
         s.angle_bias = 0;
         const std::vector<float> v = visibility(in, s);
-        EXPECT_GT(*std::min_element(v.begin(), v.end()), 0.995f) << tilt << " " << i;
+        EXPECT_GT(least_away_from_background(in, v), 0.998f) << tilt << " " << i;
       }
     }
   }

@@ -104,14 +104,14 @@ Angles angles(const Scene& scene) {
 TEST(TruthImages, Hall) {
   const Scene scene("hall", 2);
   EXPECT_LE(error<FarFieldSettings>(scene), 1.26);
-  EXPECT_LE(error<HorizonSettings>(scene), 8.2);
+  EXPECT_LE(error<HorizonSettings>(scene), 4.3);
   EXPECT_LE(error<MipmapSettings>(scene), 10.2);
 }
 
 TEST(TruthImages, Meadow) {
   const Scene scene("meadow", 1);
   EXPECT_LE(error<FarFieldSettings>(scene), 1.1);
-  EXPECT_LE(error<HorizonSettings>(scene), 19);
+  EXPECT_LE(error<HorizonSettings>(scene), 11.3);
   EXPECT_LE(error<MipmapSettings>(scene), 14.8);
 }
 

@@ -86,8 +86,11 @@ Status reproduce_bent_fig7(const ReproduceContext& context, Report* report, std:
     if (Status s = load_bent_scene(scene, kSize, *executor, &rendering); !s.ok()) return s;
     const DepthField field = rendering.gbuffer.field();
     BentBuffers truth(kSize, kSize), fast(kSize, kSize);
-    const ReferenceSettings reference{
-        .falloff = bent_falloff(rendering), .rays = kRays, .every = kEvery, .interpolate = true};
+    const ReferenceSettings reference{.falloff = bent_falloff(rendering),
+                                      .occluder = Occluder::solid(),
+                                      .rays = kRays,
+                                      .every = kEvery,
+                                      .interpolate = true};
     Outputs outputs = truth.directions();
     if (Status s = compute(field, reference, outputs, options); !s.ok()) return s;
     report->add(scene, "normal itself", mean(angles(truth.normal, truth.bent, rendering)),

@@ -23,8 +23,8 @@ set_tests_properties(
   Horizon.BitsDoNotDependOnThreads
   Reference.SameBitsForAnyNumberOfThreads
   PROPERTIES LABELS "kernel;threads")
-# `slow` are those that take more than ten seconds under a sanitizer and look at results, not at
-# memory: continuous integration runs them without.
+# `slow` are those that take more than ten seconds under a sanitizer and look at results or files, not
+# at memory: continuous integration runs them without, the nightly run with the address sanitizer.
 set_tests_properties(
   PatternFiles.PatternsAreMadeAsTheyShip
   ThreadsTest.Light

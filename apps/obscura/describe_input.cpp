@@ -17,10 +17,11 @@ namespace {
 
 using tools::Json;
 
-// To a millionth of `size`: floats have no more digits.
+// To a millionth of `size`, as floats have no more digits; as it is where that has no meaning.
 double rounded(double x, double size) {
-  const double units = std::pow(10, 6 - std::floor(std::log10(std::max(size, 1e-300))));
-  return std::round(x * units) / units;
+  const double units = std::pow(10, 6 - std::floor(std::log10(size)));
+  const double result = std::round(x * units) / units;
+  return std::isfinite(result) ? result : x;
 }
 std::array<double, 3> numbers(tools::Vec3 v, double size) {
   return {rounded(v.x, size), rounded(v.y, size), rounded(v.z, size)};

@@ -18,7 +18,7 @@ class InfoTest : public CommandTest {
   }
 };
 
-// A box of 2 x 1 x 4 far from the origin: where it is, and how it is read.
+// A face of extent 2 x 1 x 4 far from the origin: where it is, and how it is read.
 TEST_F(InfoTest, Meshes) {
   write("m.obj",
         "v 448000 5 5411000\nv 448002 5 5411000\nv 448002 6 5411000\nv 448000 6 5411004\n"
@@ -31,6 +31,11 @@ TEST_F(InfoTest, Meshes) {
   EXPECT_EQ(json.code, 0);
   EXPECT_NE(json.out.find("\"triangles\": 2"), std::string::npos);
   expect_failure("info none.obj", 3, "none.obj");
+  // A mesh without extent still has numbers.
+  write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+  const CommandResult point = run("info point.obj");
+  EXPECT_EQ(point.out.find("nan"), std::string::npos) << point.out;
+  EXPECT_EQ(point.out.find("null"), std::string::npos) << point.out;
 }
 
 TEST_F(InfoTest, Scenes) {

@@ -108,6 +108,22 @@ TEST(FarFieldDirections, UniformIntegralCarriesTheVisibility) {
   }
 }
 
+// Where pixels share slices, those of a neighbour belong to its normal: nearly.
+TEST(FarFieldDirections, SharedSlicesNearlyCarryTheVisibility) {
+  const synthetic::Input in = scene(false);
+  FarFieldSettings s = settings_of(0.5f, Occluder::solid());
+  s.preset = FarFieldPreset::kFast;
+  const Result r = run(in.field(), s);
+  double mean = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < in.depth.size(); ++i) {
+    if (!std::isfinite(in.depth[i])) continue;
+    mean += std::abs(r.dot(Result::kNormal, Result::kUniform, i) - r.planes[0][i]);
+    ++count;
+  }
+  EXPECT_LT(mean / count, 0.006);
+}
+
 TEST(FarFieldDirections, OpenPlanesLookAlongTheirNormals) {
   const double tilt = 0.6;
   const synthetic::Input in =

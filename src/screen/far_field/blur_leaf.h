@@ -4,7 +4,7 @@ const float kDepthRatio = 0.03f;
 const int kBlurReach = 2;
 const float kBlurThreshold = 0.07f * 3.14159265f;  // of obscurance: 7 % of visibility
 
-// The background is in no group: from it every surface would be within any share of its depth.
+// Nothing is like the background: from it every surface would be within any share of its depth.
 LEAF(Truth) same_depth(Real own, Real other) {
   return leaf_both(leaf_less(own, leaf_inf()),
                    leaf_less_equal(leaf_abs(other - own), real(kDepthRatio) * own));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/leaf_scalar.h"
 #include "screen/far_field/lines.h"
 #include "screen/far_field/plane.h"
 #include "screen/far_field/scan.h"
@@ -13,9 +12,6 @@
 #include "screen/method.h"
 
 namespace obscura {
-namespace leaf_scalar {
-#include "screen/far_field/share_leaf.h"
-}  // namespace leaf_scalar
 
 namespace far_field {
 namespace {
@@ -157,12 +153,10 @@ class FarFieldMethod final : public Method {
           auto run = [&](int begin, int receivers_end) {
             evaluate_row(direction, layout, y, phase, begin, receivers_end, plane);
           };
-          const int cell = cell_of(direction, side_, y, phase), n = settings_.separable;
-          const int own = leaf_scalar::share_of_cell(cell / side_, cell % side_, n);
-          if (leaf_scalar::has_share(own, direction.share, n, false)) {
+          if (settings_.separable == 1) {
             run(0, count);
-          } else if (leaf_scalar::has_share(own, direction.share, n, true)) {
-            shared_.for_dense(direction.transposed, y, count, run);
+          } else {
+            shared_.for_receivers(direction, cell_of(direction, side_, y, phase), y, count, run);
           }
         }
       }

@@ -20,8 +20,7 @@
   IO_READS(2, Receivers, vec4, receivers);                                                 \
   IO_UPDATES(3, PlaneSums, float, sums);                                                   \
   IO_READS(6, Dense, uint, dense);                                                         \
-  IO_CONSTANT(8, int, kShareSide, 1);                                                      \
-  IO_CONSTANT(9, int, kTilePixels, 32);                                                    \
+  IO_CONSTANT(8, int, kTilePixels, 32);                                                    \
   IO_PUSH(OBSCURA_RHO_WORDS int rho_start; int transposed; int lattice_stride; int margin; \
           int directions; int direction_count; int sum_stride; int add; float slope;)
 

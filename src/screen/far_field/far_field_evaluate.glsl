@@ -53,13 +53,12 @@ struct Place {
 void evaluate_slice(Receiver r, Part part, Reads reads, Direction d, Place place,
                     inout Totals totals);
 
-// Does the pixel evaluate the direction, whose cell is `cell` in this frame?
+// Does a pixel evaluate a direction? `cell` is the pixel's place in its group in this frame.
 bool evaluates(ivec2 p, ivec2 cell, int share) {
-  if (kShareSide == 1) return true;
-  const ivec2 tile = turned(p) / kTilePixels;
-  const int columns = (view.visible_width + kTilePixels - 1) / kTilePixels;
-  return has_share(share_of_cell(cell.y, cell.x, kShareSide), share, kShareSide,
-                   dense[tile.y * columns + tile.x] != 0u);
+  if (kJitter || kSide == 1) return true;
+  const ivec2 image = turned(p);
+  return has_share(share_of_cell(cell.y, cell.x, kSide), share, kSide,
+                   dense[tile_of(image.x, image.y, view.visible_width, kTilePixels)] != 0u);
 }
 
 void main() {
@@ -75,7 +74,8 @@ void main() {
   Totals totals = Totals(0.0, 0.0, vec3(0.0));
   const ivec2 cell = pattern_place(turned(p)) % kSide;
   // Receivers of a row and a cell that stand alike between scanned lines read alike.
-  const int alike = ((kJitter ? 9 * p.y + 3 * cell.y + cell.x : p.y) * kLineStep + p.x % kLineStep) * kSegments;
+  const int row = kJitter ? 9 * p.y + 3 * cell.y + cell.x : p.y;
+  const int alike = (row * kLineStep + p.x % kLineStep) * kSegments;
   for (int i = 0; r.surface && i < view.direction_count; ++i) {
     const Direction d = direction_at(i);
     if (!evaluates(p, cell, d.share)) continue;

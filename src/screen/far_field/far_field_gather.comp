@@ -1,5 +1,5 @@
 // The slices of a group's pixels, each of which has its share of the directions, for every pixel
-// (totals.cpp, gather).
+// (share.cpp, SharedWork::gather).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "math/leaf_glsl.h"
@@ -28,7 +28,8 @@ void main() {
     for (int i = 0; i < 9; ++i) {
       if (weights[i] == 0.0) continue;
       const ivec2 n = p + ivec2(i % 3, i / 3) - 1;
-      const float shares = dense[tile_of(n, kTilePixels)] != 0u ? float(kSide) : 1.0;
+      const int tile = tile_of(n.x, n.y, view.visible_width, kTilePixels);
+      const float shares = dense[tile] != 0u ? float(kSide) : 1.0;
       known = fma(weights[i], shares, known);
       add_weighted(weights[i], totals_at(n.y * view.visible_width + n.x), sums);
     }

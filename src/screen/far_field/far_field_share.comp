@@ -35,5 +35,6 @@ void main() {
   if (gl_LocalInvocationIndex != 0) return;
   const ivec2 size = end - corner;
   const int all = kKnownUnits * kSide * kSide * size.x * ((size.y + kRowStep - 1) / kRowStep);
-  dense[tile_of(corner, kTilePixels)] = float(known) < kEnough * float(all) ? 1u : 0u;
+  dense[tile_of(corner.x, corner.y, view.visible_width, kTilePixels)] =
+      float(known) < kEnough * float(all) ? 1u : 0u;
 }

@@ -32,8 +32,3 @@ float[9] share_weights(ivec2 p, float own_depth) {
   }
   return weights;
 }
-
-// Of tiles of `tile` visible pixels, the one with a pixel.
-int tile_of(ivec2 p, int tile) {
-  return p.y / tile * ((view.visible_width + tile - 1) / tile) + p.x / tile;
-}

@@ -208,7 +208,6 @@ class FarFieldProgram {
                             {io::kChord, settings_.profile == SlabProfile::kAdaptiveChord},
                             {io::kSums, static_cast<int>(sums_)},
                             {io::kSide, far_field::group_side(settings_)},
-                            {io::kShareSide, settings_.separable},
                             {io::kTilePixels, tile()},
                             {io::kPhases, tables_.phases()},
                             {io::kLineStep, settings_.line_step},

@@ -74,6 +74,12 @@ void SharedWork::prepare(const view::Geometry& g, Executor& executor) {
   });
 }
 
+SharedWork::Who SharedWork::evaluates(int cell, int share) const {
+  const int own = leaf_scalar::share_of_cell(cell / side_, cell % side_, side_);
+  if (leaf_scalar::has_share(own, share, side_, false)) return Who::kAll;
+  return leaf_scalar::has_share(own, share, side_, true) ? Who::kDense : Who::kNone;
+}
+
 void SharedWork::gather(const view::Geometry& g, const WantedSums& wanted, Executor& executor,
                         Totals* totals, Totals* spare) const {
   const int width = g.visible().width, height = g.visible().height;
@@ -90,8 +96,9 @@ void SharedWork::gather(const view::Geometry& g, const WantedSums& wanted, Execu
         for (int k = 0; k < 3; ++k) {
           const int ny = std::clamp(y + k - 1, 0, height - 1);
           const std::uint8_t* dense = dense_[0].row(ny / tile_);
-          float* shares = job.rows[k].shares + 1 - x0;
-          for (int x = first; x < end; ++x) shares[x] = dense[x / tile_] ? many : 1.0f;
+          for (int x = first; x < end; ++x) {
+            job.rows[k].shares[x - x0 + 1] = dense[x / tile_] ? many : 1.0f;
+          }
           for (int c = 0; c < job.channels; ++c) {
             std::copy_n(totals->channel[channels[c]].row(ny) + first, end - first,
                         job.rows[k].sums[c] + first - x0 + 1);

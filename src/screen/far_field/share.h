@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "screen/far_field/directions.h"
 #include "screen/far_field/totals.h"
 
 // Work shared by groups of n x n pixels (Timonen 2013, section 10, there the far field alone, of 3
@@ -25,10 +26,14 @@ class SharedWork {
   // Decides which tiles are dense.
   void prepare(const view::Geometry& geometry, Executor& executor);
 
-  // Calls run(begin, end) for runs of one phase's receivers in dense tiles, in row y.
+  // Calls run(begin, end) for the receivers that evaluate a direction, of `count` of one phase in
+  // row y of the direction's plane. `cell` is theirs, row by row of the group.
   template <class Run>
-  void for_dense(bool transposed, int y, int count, const Run& run) const {
-    const AlignedImage<std::uint8_t>& tiles = dense_[transposed];
+  void for_receivers(const Direction& direction, int cell, int y, int count, const Run& run) const {
+    const Who who = evaluates(cell, direction.share);
+    if (who == Who::kAll) run(0, count);
+    if (who != Who::kDense) return;
+    const AlignedImage<std::uint8_t>& tiles = dense_[direction.transposed];
     const std::uint8_t* row = tiles.row(y / tile_);
     const int vector = tile_ / phases_;
     for (int t = 0, end; t < tiles.width(); t = end + 1) {
@@ -42,6 +47,9 @@ class SharedWork {
               Totals* totals, Totals* spare) const;
 
  private:
+  enum class Who { kNone, kDense, kAll };
+  Who evaluates(int cell, int share) const;
+
   const int side_, phases_, tile_;
   AlignedImage<std::uint8_t> dense_[2];  // as the image lies, and transposed
 };

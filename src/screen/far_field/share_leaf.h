@@ -21,6 +21,11 @@ LEAF(bool) has_share(int own, int share, int side, bool dense) {
   return turn == 0 || (dense && turn % side == 0);
 }
 
+// Of tiles of `tile` pixels, row by row in an image `width` wide, the one with a pixel.
+LEAF(int) tile_of(int x, int y, int width, int tile) {
+  return y / tile * ((width + tile - 1) / tile) + x / tile;
+}
+
 // A surface point in eye space, z away from the camera, and its normal, z likewise.
 struct SharePoint {
   Real x, y, z;
